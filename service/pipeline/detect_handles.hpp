@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The whole method: a cloud in, handles out (paper, sections 4 and 5).
+#pragma once
+#include <array>
+#include <functional>
+#include <string_view>
+#include <vector>
+
+#include "service/pipeline/detect_config.hpp"
+#include "service/pipeline/gripper.hpp"
+#include "service/pipeline/handle.hpp"
+#include "service/pipeline/handle_check.hpp"
+#include "service/pipeline/point_cloud.hpp"
+
+namespace graspd {
+
+/// How far a cloud got.
+enum class DetectionStatus { kOk, kEmptyCloud, kNoFinitePoints, kNothingInWorkspace, kNoHandles };
+
+/// Handles, and how the method came to them.
+struct Detection {
+  DetectionStatus status = DetectionStatus::kEmptyCloud;
+  std::vector<Handle> handles;  ///< best first, in the cloud's frame
+  int points_in = 0;            ///< of the cloud
+  int points_used = 0;          ///< after workspace filter and downsampling
+  int num_segments = 0;         ///< surfaces found
+  int num_candidates = 0;       ///< gripper poses tried
+  FailureCounts candidate_failures{};  ///< by the first check a candidate failed
+  FailureCounts segment_failures{};    ///< segments without a handle, by the last check that one of its candidates reached
+};
+
+/// Called with a stage's name when the stage is done; the caller keeps the time.
+using StageObserver = std::function<void(std::string_view stage)>;
+
+/// Finds the handles of a cloud. The result depends on the arguments alone, to the bit, for any number of threads; work
+/// is split over the calling thread's oneTBB arena.
+[[nodiscard]] Detection detect_handles(const PointCloud& cloud, const Gripper& gripper, const DetectConfig& config,
+                                       const StageObserver& observer = {});
+
+}  // namespace graspd

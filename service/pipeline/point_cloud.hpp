@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+// One frame of a depth sensor as points, in the layout the pipeline works on.
+#pragma once
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+namespace graspd {
+
+/// Points as a structure of arrays [m], in the cloud's frame. Missing points are NaN. Holds coordinates alone: colours
+/// and labels never reach the pipeline.
+struct PointCloud {
+  std::vector<float> x, y, z;
+  /// Organized clouds: size() == width * height, row by row. Unorganized: height is 1.
+  int width = 0;
+  int height = 1;
+  /// Origin of the sensor in the cloud's frame [m].
+  Eigen::Vector3f viewpoint = Eigen::Vector3f::Zero();
+
+  [[nodiscard]] std::size_t size() const { return x.size(); }
+  [[nodiscard]] bool empty() const { return x.empty(); }
+  [[nodiscard]] Eigen::Vector3f point(std::size_t i) const { return {x[i], y[i], z[i]}; }
+  void resize(std::size_t n) {
+    x.resize(n);
+    y.resize(n);
+    z.resize(n);
+  }
+  void push_back(const Eigen::Vector3f& p) {
+    x.push_back(p.x());
+    y.push_back(p.y());
+    z.push_back(p.z());
+  }
+};
+
+}  // namespace graspd
