@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Detection -> handle_list_t -> message, and back for clients.
+#pragma once
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "graspd/handle_list_t.hpp"
+#include "service/pipeline/detect_handles.hpp"
+#include "service/pipeline/gripper.hpp"
+
+namespace graspd {
+
+/// What a list says besides the detection.
+struct HandleListHeader {
+  std::int64_t utime = 0;      ///< of the cloud [us]
+  std::int64_t seq = -1;       ///< of the cloud
+  std::string source_channel;  ///< that the cloud came on
+  std::string frame_name;      ///< of T_target_cloud's target
+  std::int8_t status = 0;      ///< one of handle_list_t's values
+  std::string status_text;
+  double latency_s = 0;                                   ///< from arrival to publishing
+  std::vector<std::pair<std::string, double>> stages_ms;  ///< name and time, in the order of the pipeline
+};
+
+/// The status on the wire of a detection.
+[[nodiscard]] std::int8_t wire_status(DetectionStatus status);
+
+/// Handles keep their order, move to the target frame and are numbered from 0. Of the failures those that
+/// happened are listed, in the order of the checks.
+[[nodiscard]] handle_list_t make_handle_list(const HandleListHeader& header, const Gripper& gripper,
+                                             const Detection& detection,
+                                             const Eigen::Isometry3f& T_target_cloud);
+
+/// The message, fingerprint first. Throw std::invalid_argument when a num_ member is not the length of its
+/// array. The second form reuses the buffer's memory.
+[[nodiscard]] std::vector<std::byte> encode(const handle_list_t& list);
+void encode(const handle_list_t& list, std::vector<std::byte>& buffer);
+
+/// Nothing unless the message is a whole, valid handle_list_t. Trusts nothing in the bytes.
+[[nodiscard]] std::optional<handle_list_t> decode_handle_list(std::span<const std::byte> message);
+
+}  // namespace graspd

@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+// point_cloud_t -> Frame.
+#pragma once
+#include <cstddef>
+#include <span>
+#include <variant>
+
+#include "service/transport/frame.hpp"
+#include "service/transport/refusal.hpp"
+
+namespace graspd {
+
+/// The message with its fingerprint, which the caller has looked at.
+[[nodiscard]] std::variant<Frame, Refusal> decode_point_cloud(std::span<const std::byte> message,
+                                                              const DecodeLimits& limits);
+
+}  // namespace graspd

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+// What is fixed about the types on the wire and not in their generated code.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+
+namespace graspd {
+
+/// The first eight bytes of a message, big-endian; a test holds them equal to the generated types'.
+inline constexpr std::uint64_t kPointCloudFingerprint = 0x19d75af77ba18842;
+inline constexpr std::uint64_t kDepthImageFingerprint = 0xa92f072e49028cde;
+inline constexpr std::uint64_t kHandleListFingerprint = 0x997d5fa0df4f1be1;
+inline constexpr std::uint64_t kStatusFingerprint = 0x633079675b4d9c45;
+inline constexpr std::size_t kFingerprintBytes = 8;
+
+/// Values of point_field_t.datatype.
+inline constexpr std::int8_t kFirstDatatype = 1;
+inline constexpr std::int8_t kFloat32 = 7;
+inline constexpr std::int8_t kLastDatatype = 8;
+
+/// Bytes of one value of a datatype; 0 for none of them.
+[[nodiscard]] constexpr std::size_t datatype_size(std::int8_t datatype) {
+  constexpr std::size_t kSizes[] = {0, 1, 1, 2, 2, 4, 4, 4, 8};
+  return datatype >= kFirstDatatype && datatype <= kLastDatatype ? kSizes[datatype] : 0;
+}
+
+/// Nothing when the message is shorter than a fingerprint.
+[[nodiscard]] std::optional<std::uint64_t> fingerprint(std::span<const std::byte> message);
+
+/// The name of a type of ours; empty for others.
+[[nodiscard]] std::string_view type_name(std::uint64_t fingerprint);
+
+}  // namespace graspd
