@@ -1,0 +1,111 @@
+# SPDX-FileCopyrightText: 2026 The graspd authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""graspd-log: complete, readable by LCM's own player, in parts of a size, and clear about a disk it cannot write to."""
+import shutil
+import signal
+import struct
+import subprocess
+import unittest
+
+from harness import CLOUDS, HANDLES, STATUS, run_tests, wait_until
+from traffic import TrafficTest
+
+SYNC = 0xEDA1DA01
+
+
+def read_events(path):
+    """(channel, bytes) of every event of an LCM log, which must be whole."""
+    data, at, events = path.read_bytes(), 0, []
+    while at < len(data):
+        sync, number, _, name_size, size = struct.unpack_from(">IqqII", data, at)
+        if sync != SYNC or number != len(events):
+            raise AssertionError(f"{path}: no event {len(events)} at byte {at}")
+        at += 28
+        events.append((data[at:at + name_size].decode(), data[at + name_size:at + name_size + size]))
+        at += name_size + size
+        if at > len(data):
+            raise AssertionError(f"{path}: the last event is cut off")
+    return events
+
+
+class Logging(TrafficTest):
+    def log_files(self):
+        return sorted(path for path in (self.folder / "log").rglob("*") if path.is_file())
+
+    def record(self, messages, *options):
+        """The events that graspd-log writes of these (channel, bytes), file by file."""
+        bus = self.open_bus()
+        logger = self.start_listening("graspd-log", "--output", self.folder / "log", *options)
+        for channel, data in messages:
+            self.publish_paced(bus, channel, data)
+        wait_until(lambda: sum(f.stat().st_size for f in self.log_files()) >= sum(len(d) for _, d in messages),
+                   "the log to grow")
+        self.assertEqual(logger.stop(signal.SIGINT)[0], 0, logger.err)
+        return [read_events(path) for path in self.log_files()]
+
+    def test_a_log_is_complete_and_leaves_out_other_channels(self):
+        frame = self.record_frames(1)[0]
+        messages = [(CLOUDS, self.with_seq(frame, seq)) for seq in range(5)] + [(HANDLES, b"x" * 40), (STATUS, b"")]
+        files = self.record([("OTHER", b"y" * 100)] + messages)
+        self.assertEqual(len(files), 1)
+        self.assertEqual(files[0], messages)
+
+    def test_rotation_by_size(self):
+        messages = [(CLOUDS, struct.pack(">q", i) + bytes(100_000)) for i in range(40)]
+        files = self.record(messages, "--max-size-mb", 1)
+        self.assertGreater(len(files), 3)
+        self.assertEqual([event for events in files for event in events], messages)
+        for path in self.log_files():
+            self.assertLess(path.stat().st_size, 1_300_000)
+
+    @unittest.skipUnless(shutil.which("lcm-logplayer"), "lcm-logplayer is not installed")
+    def test_lcm_plays_it_back(self):
+        messages = [(CLOUDS, struct.pack(">q", i) * 10) for i in range(20)]
+        self.record(messages)
+        bus = self.open_bus()
+        player = subprocess.run(["lcm-logplayer", "--speed=10", str(self.log_files()[0])], capture_output=True,
+                                text=True, check=False)
+        self.assertEqual(player.returncode, 0, player.stderr)
+        wait_until(lambda: (bus.receive(0.02), len(bus.messages) >= 20)[1], "the replayed messages")
+        self.assertEqual([m for m in bus.messages if m[0] == CLOUDS], messages)
+
+    def mount(self, options):
+        folder = self.folder / "disk"
+        folder.mkdir()
+        subprocess.run(["mount", "-t", "tmpfs", "-o", options, "tmpfs", str(folder)], check=True)
+        self.addCleanup(subprocess.run, ["umount", str(folder)], check=True)
+        return folder
+
+    def assert_one_line(self, program, *words):
+        errors = [line for line in program.err.splitlines() if any(str(w) in line for w in words)]
+        self.assertEqual(len(errors), 1, program.err)
+        self.assertEqual(program.wait(), 1, program.err)
+
+    def test_a_folder_that_cannot_be_written_to(self):
+        file = self.folder / "a_file"
+        file.touch()
+        for folder in (self.mount("ro"), file, file / "below"):
+            with self.subTest(folder=folder):
+                self.assert_one_line(self.start("graspd-log", "--output", folder), folder)
+
+    def test_a_full_disk(self):
+        disk = self.mount("size=1m")
+        bus = self.open_bus()
+        logger = self.start_listening("graspd-log", "--output", disk, "--min-free-mb", 0)
+
+        def ended():
+            bus.publish(CLOUDS, bytes(50_000))
+            return logger.process.poll() is not None
+        wait_until(ended, "graspd-log to notice that the disk is full")
+        self.assert_one_line(logger, disk)
+        for path in disk.rglob("*.lcm*"):
+            self.assertGreater(len(read_events(path)), 0)
+
+    def test_a_disk_below_the_floor(self):
+        disk = self.mount("size=8m")
+        self.assert_one_line(self.start("graspd-log", "--output", disk, "--min-free-mb", 100), disk)
+
+
+
+if __name__ == "__main__":
+    run_tests()

@@ -1,0 +1,48 @@
+# SPDX-FileCopyrightText: 2026 The graspd authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Every program explains itself, tells its version and refuses what it does not know."""
+import re
+
+from harness import GraspdTest, run_tests
+
+PROGRAMS = ["graspd", "graspd-detect", "graspd-publish", "graspd-simulate", "graspd-listen", "graspd-log",
+            "graspd-status"]
+
+
+class Usage(GraspdTest):
+    def test_help(self):
+        for name in PROGRAMS:
+            program = self.run_program(name, "--help")
+            self.assertRegex(program.out, r"(?i)\busage\b")
+            for option in ("--help", "--version"):
+                self.assertIn(option, program.out)
+            self.assertEqual(program.err, "")
+
+    def test_every_program_on_the_bus_takes_a_url(self):
+        for name in PROGRAMS:
+            if name != "graspd-detect":
+                self.assertRegex(self.run_program(name, "--help").out, r"-l,\s*--lcm-url")
+
+    def test_version(self):
+        versions = set()
+        for name in PROGRAMS:
+            program = self.run_program(name, "--version")
+            self.assertRegex(program.out, r"\d+\.\d+\.\d+")
+            versions.update(re.findall(r"\d+\.\d+\.\d+", program.out))
+        self.assertEqual(len(versions), 1, versions)
+
+    def test_unknown_option(self):
+        for name in PROGRAMS:
+            program = self.run_program(name, "--no-such-option", code=2)
+            self.assertEqual(program.out, "")
+            self.assertIn("--no-such-option", program.err)
+
+    def test_option_without_its_value(self):
+        for name in PROGRAMS:
+            if name != "graspd-detect":
+                program = self.run_program(name, "--lcm-url", code=2)
+                self.assertIn("--lcm-url", program.err)
+
+
+if __name__ == "__main__":
+    run_tests()
