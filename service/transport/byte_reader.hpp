@@ -21,7 +21,7 @@ class ByteReader {
     kNone,
     kTruncated,      ///< the bytes end before the value does
     kBadLength,      ///< a string's length or an array's count that cannot be
-    kBadString,      ///< a string without its final NUL, or with another one inside
+    kBadString,      ///< a string without its final NUL, or with another inside, or not text
     kTrailingBytes,  ///< from finish(): the message ends before the bytes do
   };
 
@@ -35,6 +35,9 @@ class ByteReader {
 
   /// A view into the bytes, without the final NUL; fails on more than max_length characters.
   std::string_view string(const char* place, std::int32_t max_length);
+
+  /// The same for text that ends up in logs and answers: fails on control characters, too.
+  std::string_view text(const char* place, std::int32_t max_length);
 
   /// The number of elements of an array that takes at least min_element_bytes each; fails when it is
   /// negative, more than max_count, or more than the bytes that are left can hold. What succeeds is safe to
@@ -61,8 +64,7 @@ class ByteReader {
   Unsigned integer(const char* place) {
     const auto view = bytes(place, sizeof(Unsigned));
     Unsigned value = 0;
-    for (const std::byte b : view)
-      value = static_cast<Unsigned>((value << 7 << 1) | static_cast<Unsigned>(b));
+    for (const std::byte b : view) value = static_cast<Unsigned>((value << 8) | static_cast<Unsigned>(b));
     return value;
   }
   void fail(Failure failure, const char* place, std::int64_t got, std::int64_t expected);

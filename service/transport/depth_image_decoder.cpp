@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/transport/depth_image_decoder.hpp"
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+#include "service/transport/decoding.hpp"
+#include "service/transport/wire_layout.hpp"
+
+namespace graspd {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "depths are little-endian");
+
+constexpr std::string_view kType = "depth_image_t";
+
+/// The members before the data, as they came.
+struct Members {
+  FrameHeader header;
+  double depth_scale = 0;
+  double fx = 0, fy = 0, cx = 0, cy = 0;
+  std::int32_t width = 0;
+  std::int32_t height = 0;
+  std::int32_t data_size = 0;
+};
+
+Members read_members(ByteReader& reader, const DecodeLimits& limits) {
+  Members m;
+  m.header = read_header(reader, limits);
+  m.depth_scale = reader.float64("depth_scale");
+  m.fx = reader.float64("fx");
+  m.fy = reader.float64("fy");
+  m.cx = reader.float64("cx");
+  m.cy = reader.float64("cy");
+  m.width = reader.int32("width");
+  m.height = reader.int32("height");
+  m.data_size = reader.int32("data_size");
+  return m;
+}
+
+/// The ranges are wider than any camera's; inside them every factor below is a finite float.
+std::optional<Refusal> check_calibration(const Members& m) {
+  struct Rule {
+    const char* member;
+    double value, min, max;
+  };
+  const Rule rules[] = {{"depth_scale", m.depth_scale, 1e-9, 1},
+                        {"fx", m.fx, 1e-3, 1e7},
+                        {"fy", m.fy, 1e-3, 1e7},
+                        {"cx", m.cx, -1e7, 1e7},
+                        {"cy", m.cy, -1e7, 1e7}};
+  for (const Rule& rule : rules) {
+    if (rule.value >= rule.min && rule.value <= rule.max) continue;  // false for NaN
+    return refuse(RefusalReason::kBadCalibration, "depth_image_t." + std::string(rule.member),
+                  "no camera's (got " + number(rule.value) + ", expected " + number(rule.min) + " to " +
+                      number(rule.max) + ")",
+                  m.header);
+  }
+  return std::nullopt;
+}
+
+/// The pinhole model. A pixel's ray does not depend on its depth, so each column's and row's share is
+/// computed once.
+void unproject(std::span<const std::byte> data, const Members& m, PointCloud& cloud) {
+  constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
+  const auto width = static_cast<std::size_t>(m.width);
+  const auto height = static_cast<std::size_t>(m.height);
+  std::vector<float> column(width);
+  for (std::size_t u = 0; u < width; ++u)
+    column[u] = static_cast<float>((static_cast<double>(u) - m.cx) / m.fx);
+  const auto scale = static_cast<float>(m.depth_scale);
+  for (std::size_t v = 0; v < height; ++v) {
+    const auto row = static_cast<float>((static_cast<double>(v) - m.cy) / m.fy);
+    const std::byte* __restrict depths = data.data() + v * width * sizeof(std::uint16_t);
+    const float* __restrict columns = column.data();
+    float* __restrict x = cloud.x.data() + v * width;
+    float* __restrict y = cloud.y.data() + v * width;
+    float* __restrict z = cloud.z.data() + v * width;
+    for (std::size_t u = 0; u < width; ++u) {
+      std::uint16_t depth = 0;
+      std::memcpy(&depth, depths + u * sizeof(depth), sizeof(depth));
+      const float distance = depth == 0 ? kMissing : static_cast<float>(depth) * scale;
+      x[u] = columns[u] * distance;
+      y[u] = row * distance;
+      z[u] = distance;
+    }
+  }
+}
+
+}  // namespace
+
+std::variant<Frame, Refusal> decode_depth_image(std::span<const std::byte> message,
+                                                const DecodeLimits& limits) {
+  ByteReader reader(message);
+  reader.skip("fingerprint", kFingerprintBytes);
+  Members m = read_members(reader, limits);
+  if (!reader.ok()) return refuse(reader, kType, m.header);
+  const DataLayout layout{kType, m.width, m.height, sizeof(std::uint16_t), m.data_size, reader.remaining()};
+  if (auto refusal = check_layout(layout, limits, m.header)) return *std::move(refusal);
+  const bool has_pixels = m.width > 0 && m.height > 0;  // without any, intrinsics say nothing
+  if (has_pixels) {
+    if (auto refusal = check_calibration(m)) return *std::move(refusal);
+  }
+
+  Frame frame{m.header.utime, m.header.seq, std::move(m.header.frame_name), {}};
+  frame.cloud.width = m.width;
+  frame.cloud.height = m.height;
+  frame.cloud.resize(static_cast<std::size_t>(m.width) * static_cast<std::size_t>(m.height));
+  if (has_pixels) unproject(reader.bytes("data", reader.remaining()), m, frame.cloud);
+  return frame;
+}
+
+}  // namespace graspd

@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/transport/lcm_bus.hpp"
+
+#include <lcm/lcm.h>
+#include <netdb.h>
+#include <poll.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <climits>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+#include "service/transport/multicast_check.hpp"
+
+namespace graspd {
+namespace {
+
+[[noreturn]] void fail(const std::string& url, const std::string& reason) {
+  throw std::runtime_error("LCM URL '" + url + "': " + reason);
+}
+
+/// LCM takes a host's name for the local host.
+std::string with_resolved_host(const std::string& url, const LcmUrl& parsed) {
+  const std::size_t colon = std::min(parsed.network.find(':'), parsed.network.size());
+  const std::string host = parsed.network.substr(0, colon);
+  if (host.empty()) return url;
+  addrinfo hints{};
+  hints.ai_family = AF_INET;
+  hints.ai_socktype = SOCK_STREAM;
+  addrinfo* found = nullptr;
+  const int error = getaddrinfo(host.c_str(), nullptr, &hints, &found);
+  if (error != 0) {
+    fail(url, "no address for host '" + host + "' (" + gai_strerror(error) +
+                  "); remedy: check its name, or give its address");
+  }
+  char address[NI_MAXHOST] = {};
+  getnameinfo(found->ai_addr, found->ai_addrlen, address, sizeof(address), nullptr, 0, NI_NUMERICHOST);
+  freeaddrinfo(found);
+  return "tcpq://" + std::string(address) + url.substr(std::string("tcpq://").size() + host.size());
+}
+
+/// Everything that is known to go wrong inside LCM is looked at before LCM sees the URL.
+std::string checked_url(const std::string& url, const LcmUrl& parsed) {
+  if (parsed.provider == "udpm") require_multicast(url);
+  if (parsed.provider == "tcpq") return with_resolved_host(url, parsed);
+  return url;
+}
+
+std::string creation_failure(const LcmUrl& url) {
+  if (url.provider == "file") {
+    return "cannot open the log '" + url.network +
+           "'; remedy: check that it exists, is readable and is not empty";
+  }
+  if (url.provider == "tcpq")
+    return "cannot connect to '" + url.network + "'; remedy: start lcm-tcpq-server there";
+  if (url.provider == "udpm" || url.provider == "memq")
+    return "LCM cannot use it; remedy: check the limit of open files";
+  return "unknown provider '" + url.provider + "' (expected udpm, tcpq, file or memq)";
+}
+
+/// LCM puts ^ and $ around a channel, which bind closer than an alternative.
+std::string whole_name(const std::string& channel_regex) {
+  return channel_regex.find('|') == std::string::npos ? channel_regex : "(" + channel_regex + ")";
+}
+
+}  // namespace
+
+struct LcmBus::Subscription {
+  LcmBus* bus;
+  Handler handler;
+
+  /// Called by LCM. No exception may pass through its C frames: the first one waits in the bus.
+  static void dispatch(const lcm_recv_buf_t* received, const char* channel, void* user) noexcept {
+    auto& self = *static_cast<Subscription*>(user);
+    try {
+      const auto* bytes = static_cast<const std::byte*>(received->data);
+      self.handler({channel, {bytes, received->data_size}, received->recv_utime});
+    } catch (...) {
+      if (!self.bus->handler_error_) self.bus->handler_error_ = std::current_exception();
+    }
+  }
+};
+
+LcmBus::LcmBus(const std::string& url)
+    : url_(url), provider_(parse_lcm_url(url).provider), lcm_(nullptr, lcm_destroy) {
+  const LcmUrl parsed = parse_lcm_url(url);
+  lcm_.reset(lcm_create(checked_url(url, parsed).c_str()));
+  if (lcm_ == nullptr) fail(url, creation_failure(parsed));
+  // LCM returns tcpq connections that were refused. udpm starts its receiver here, which who only publishes
+  // is spared.
+  if (provider_ == "tcpq" && lcm_get_fileno(lcm_.get()) < 0) fail(url, creation_failure(parsed));
+}
+
+LcmBus::~LcmBus() = default;
+
+void LcmBus::require_receiving() {
+  if (lcm_get_fileno(lcm_.get()) >= 0) return;
+  fail(
+      url_,
+      "cannot receive; remedy: check the multicast route (ip route add 239.0.0.0/8 dev lo) and the firewall");
+}
+
+void LcmBus::subscribe(const std::string& channel_regex, Handler handler, int queue_capacity) {
+  require_receiving();  // after a failure lcm_subscribe would stall for ten seconds
+  auto subscription = std::make_unique<Subscription>(Subscription{this, std::move(handler)});
+  lcm_subscription_t* created = lcm_subscribe(lcm_.get(), whole_name(channel_regex).c_str(),
+                                              &Subscription::dispatch, subscription.get());
+  if (created == nullptr) {
+    throw std::runtime_error("LCM channel '" + channel_regex +
+                             "': not a regular expression; remedy: correct it");
+  }
+  subscriptions_.push_back(std::move(subscription));
+  lcm_subscription_set_queue_capacity(created, queue_capacity);
+}
+
+LcmBus::Wait LcmBus::wait(std::chrono::milliseconds timeout) {
+  // Not lcm_handle_timeout: its select() aborts on the -1 of a lost connection and on file numbers from 1024.
+  const int fd = lcm_get_fileno(lcm_.get());
+  if (fd < 0) return Wait::kClosed;
+  pollfd waiting{fd, POLLIN, 0};
+  const auto milliseconds = std::clamp<std::chrono::milliseconds::rep>(timeout.count(), 0, INT_MAX);
+  const int ready = poll(&waiting, 1, static_cast<int>(milliseconds));
+  if (ready == 0 || (ready < 0 && errno == EINTR)) return Wait::kTimeout;
+  if (ready < 0) throw std::system_error(errno, std::system_category(), "poll");
+  if ((waiting.revents & POLLIN) == 0) return Wait::kClosed;
+
+  errno = 0;
+  const int status = lcm_handle(lcm_.get());
+  const bool interrupted = status < 0 && errno == EINTR;
+  if (handler_error_) std::rethrow_exception(std::exchange(handler_error_, nullptr));
+  if (interrupted) return Wait::kTimeout;
+  return status < 0 ? Wait::kClosed : Wait::kHandled;
+}
+
+bool LcmBus::publish(const std::string& channel, std::span<const std::byte> bytes) {
+  if (channel.size() > LCM_MAX_CHANNEL_NAME_LENGTH || bytes.size() > LCM_MAX_MESSAGE_SIZE) return false;
+  const std::scoped_lock lock(publish_mutex_);
+  return lcm_publish(lcm_.get(), channel.c_str(), bytes.data(), static_cast<unsigned int>(bytes.size())) == 0;
+}
+
+}  // namespace graspd
