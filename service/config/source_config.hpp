@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The settings of one source of clouds.
+#pragma once
+#include <Eigen/Geometry>
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "service/pipeline/config_fields.hpp"
+#include "service/pipeline/detect_config.hpp"
+#include "service/pipeline/gripper.hpp"
+
+namespace graspd {
+
+/// Which frames are worked on when they come faster than they can be.
+enum class FramePolicy { kLatest, kAll };
+[[nodiscard]] constexpr std::array<std::string_view, 2> choices(FramePolicy) {
+  return {"latest", "all"};
+}
+
+/// Where the sensor is (extrinsics). Without a frame name handles stay in the cloud's frame.
+struct SensorPose {
+  std::string frame_name;
+  Eigen::Vector3f position_m = Eigen::Vector3f::Zero();
+  std::vector<double> quaternion_wxyz;  ///< empty or 4
+  std::vector<double> rpy_rad;          ///< empty or 3: R = Rz(yaw) Ry(pitch) Rx(roll)
+
+  template <class Self, class Visitor>
+  static void visit(Self& self, Visitor&& v) {
+    v("frame_name", self.frame_name, Range{},
+      "frame that handles and workspace are in, for example the robot's base; empty: the cloud's own");
+    v("position_m", self.position_m, Range{-1000, 1000}, "the cloud's origin in that frame [m]");
+    v("quaternion_wxyz", self.quaternion_wxyz, Range{-1, 1},
+      "rotation from the cloud's frame to that frame, unit length; empty: rpy_rad, or none");
+    v("rpy_rad", self.rpy_rad, Range{-6.2832, 6.2832},
+      "the same as roll, pitch, yaw [rad]: Rz(yaw) Ry(pitch) Rx(roll)");
+  }
+
+  [[nodiscard]] bool given() const { return !frame_name.empty(); }
+  /// Takes points of the cloud to the named frame.
+  [[nodiscard]] Eigen::Isometry3f T_target_cloud() const;
+  /// One form of the rotation at most, of unit length; nothing without a frame name.
+  [[nodiscard]] std::optional<ConfigProblem> validate() const;
+};
+
+/// A gripper by the name of an installed file, or in full. In YAML: a name, a path, or a map of a gripper
+/// file's keys.
+struct GripperSetting {
+  std::string installed_name;  ///< empty: not one of the installed files, or changed
+  Gripper gripper;
+};
+
+struct SourceConfig {
+  std::string name = "camera";
+  std::string channel = "GRASPD_CLOUD";
+  std::string handles_channel = "GRASPD_HANDLES";
+  FramePolicy policy = FramePolicy::kLatest;
+  int queue_length = 30;
+  GripperSetting gripper{"paper_80mm", Gripper{}};
+  std::string sensor;
+  SensorPose sensor_pose;
+  DetectConfig
+      detect;  ///< complete: the service's, then the sensor's, then the source's own; T_box_cloud is set
+
+  template <class Self, class Visitor>
+  static void visit(Self& self, Visitor&& v) {
+    v("name", self.name, Range{}, "name in status and log; required");
+    v("channel", self.channel, Range{},
+      "channel of the clouds or depth images, or a regular expression for the whole name; required");
+    v("handles_channel", self.handles_channel, Range{}, "channel of the answers, handle_list_t");
+    v("policy", self.policy, Range{},
+      "latest: a newer frame replaces one that waits; all: frames wait in turn");
+    v("queue_length", self.queue_length, Range{1, 1000}, "frames that wait at most, with policy all");
+    v("gripper", self.gripper, Range{}, "name of a file in grippers/, or its path, or its keys");
+    v("sensor", self.sensor, Range{},
+      "name of a file in sensors/, or its path, with settings of the method for that sensor; empty: none");
+    v("sensor_pose", self.sensor_pose, "where the sensor is (extrinsics)");
+    v("detect", self.detect, "what differs from detect: above, for this source");
+  }
+};
+
+}  // namespace graspd

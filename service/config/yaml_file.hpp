@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+// A YAML file as a tree, after the checks that the parser leaves out.
+#pragma once
+#include <yaml-cpp/yaml.h>
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace graspd {
+
+inline constexpr std::size_t kMaxConfigBytes = std::size_t{1} << 20;
+
+/// The file's only document; null for an empty one. Throws ConfigError when it cannot be read, is larger than
+/// kMaxConfigBytes, is not UTF-8 text, or is not YAML.
+[[nodiscard]] YAML::Node load_yaml(const std::filesystem::path& file);
+
+/// Whether all of it is valid UTF-8 and holds no NUL.
+[[nodiscard]] bool is_utf8_text(std::string_view text);
+
+}  // namespace graspd
