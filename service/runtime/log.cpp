@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/runtime/log.hpp"
+
+#include <spdlog/logger.h>
+#include <spdlog/sinks/base_sink.h>
+#include <spdlog/sinks/stdout_sinks.h>
+
+#include <algorithm>
+
+namespace graspd {
+namespace {
+
+class FunctionSink final : public spdlog::sinks::base_sink<std::mutex> {
+ public:
+  explicit FunctionSink(std::function<void(const std::string&)> write) : write_(std::move(write)) {}
+
+ private:
+  void sink_it_(const spdlog::details::log_msg& message) override {
+    write_(std::string(message.payload.data(), message.payload.size()));
+  }
+  void flush_() override {}
+
+  std::function<void(const std::string&)> write_;
+};
+
+bool is_plain(char c) {
+  return c > ' ' && c < 0x7f && c != '"' && c != '\\' && c != '=';
+}
+
+std::string quoted_if_needed(const std::string& value) {
+  if (!value.empty() && std::all_of(value.begin(), value.end(), is_plain)) return value;
+  std::string text = "\"";
+  for (const char c : value) {
+    if (c == '"' || c == '\\') text += '\\';
+    text += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
+  }
+  return text + '"';
+}
+
+}  // namespace
+
+std::string format_fields(std::string_view event, std::initializer_list<LogField> fields) {
+  std::string line = "event=" + std::string(event);
+  for (const LogField& field : fields) line += " " + field.key + "=" + quoted_if_needed(field.value);
+  return line;
+}
+
+Log::Log(const Clock& clock)
+    : clock_(clock),
+      logger_(std::make_unique<spdlog::logger>("graspd", std::make_shared<spdlog::sinks::stderr_sink_mt>())) {
+  logger_->set_pattern("%Y-%m-%dT%H:%M:%S.%eZ level=%l %v", spdlog::pattern_time_type::utc);
+  logger_->flush_on(spdlog::level::info);
+}
+
+Log::Log(const Clock& clock, std::function<void(const std::string&)> sink)
+    : clock_(clock),
+      logger_(std::make_unique<spdlog::logger>("graspd", std::make_shared<FunctionSink>(std::move(sink)))) {}
+
+Log::~Log() = default;
+
+void Log::info(std::string_view event, std::initializer_list<LogField> fields) {
+  write(LogLevel::kInfo, event, fields);
+}
+
+void Log::warning(std::string_view event, std::initializer_list<LogField> fields) {
+  write(LogLevel::kWarning, event, fields);
+}
+
+void Log::error(std::string_view event, std::initializer_list<LogField> fields) {
+  write(LogLevel::kError, event, fields);
+}
+
+void Log::write(LogLevel level, std::string_view event, std::initializer_list<LogField> fields) {
+  const std::int64_t suppressed = admit(event);
+  if (suppressed < 0) return;
+  std::string line = format_fields(event, fields);
+  if (suppressed > 0) line += " suppressed=" + std::to_string(suppressed);
+  const auto spdlog_level = level == LogLevel::kInfo      ? spdlog::level::info
+                            : level == LogLevel::kWarning ? spdlog::level::warn
+                                                          : spdlog::level::err;
+  logger_->log(spdlog_level, spdlog::string_view_t(line.data(), line.size()));
+}
+
+std::int64_t Log::admit(std::string_view event) {
+  const std::lock_guard lock(mutex_);
+  const Clock::TimePoint now = clock_.now();
+  auto [at, is_new] = kinds_.try_emplace(std::string(event));
+  Kind& kind = at->second;
+  if (is_new || now - kind.since >= kPeriod) {
+    const std::int64_t suppressed = kind.suppressed;
+    kind = {now, 1, 0};
+    return suppressed;
+  }
+  if (kind.lines < kLinesAPeriod) {
+    ++kind.lines;
+    return 0;
+  }
+  ++kind.suppressed;
+  return -1;
+}
+
+}  // namespace graspd

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/runtime/process_usage.hpp"
+
+#include <sys/resource.h>
+
+#include <charconv>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+namespace graspd {
+namespace {
+
+double seconds_of(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+}  // namespace
+
+std::int64_t status_bytes(std::string_view status_text, std::string_view key) {
+  const std::string start = std::string(key) + ":";
+  std::size_t at = status_text.starts_with(start) ? 0 : status_text.find("\n" + start);
+  if (at == std::string_view::npos) return 0;
+  at = status_text.find_first_of("0123456789", at + start.size());
+  if (at == std::string_view::npos) return 0;
+  std::int64_t kilobytes = 0;
+  std::from_chars(status_text.data() + at, status_text.data() + status_text.size(), kilobytes);
+  return kilobytes * 1024;
+}
+
+ProcessUsage ProcessUsageMeter::measure(Clock::TimePoint now) {
+  ProcessUsage usage;
+  std::ifstream file("/proc/self/status");
+  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  usage.rss_bytes = status_bytes(text, "VmRSS");
+  usage.peak_rss_bytes = status_bytes(text, "VmHWM");
+  rusage times{};
+  getrusage(RUSAGE_SELF, &times);
+  const double cpu_s = seconds_of(times.ru_utime) + seconds_of(times.ru_stime);
+  const double elapsed_s = seconds(now - last_time_);
+  if (started_ && elapsed_s > 0) usage.cpu = (cpu_s - last_cpu_s_) / elapsed_s;
+  last_cpu_s_ = cpu_s;
+  last_time_ = now;
+  started_ = true;
+  return usage;
+}
+
+}  // namespace graspd
