@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "client/simulate/object_models.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace graspd {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using std::numbers::pi;
+
+std::uint32_t random_color(Rng& rng) {
+  constexpr std::array<std::uint32_t, 14> kPaints{0xc0392b, 0xe67e22, 0xf1c40f, 0x27ae60, 0x16a085,
+                                                  0x2980b9, 0x8e44ad, 0x34495e, 0xecf0f1, 0xd35400,
+                                                  0x7f8c8d, 0xb9770e, 0x5dade2, 0xf5b7b1};
+  return kPaints[static_cast<std::size_t>(rng.index(static_cast<int>(kPaints.size())))];
+}
+
+ObjectModel with_part(const char* kind, Rng& rng, const Convex& part) {
+  ObjectModel model;
+  model.solid.kind = kind;
+  model.solid.rgb = random_color(rng);
+  model.solid.parts.push_back(part);
+  return model;
+}
+
+Footprint circle(double radius, double height) {
+  Footprint f;
+  f.radius = radius;
+  f.z_max = height;
+  return f;
+}
+
+Footprint rectangle(const Vector2d& center, const Vector2d& half, double height) {
+  Footprint f;
+  f.center = center;
+  f.half = half;
+  f.z_max = height;
+  return f;
+}
+
+ObjectModel block(const char* kind, Rng& rng, const Vector3d& half) {
+  ObjectModel model = with_part(kind, rng, Box{{0, 0, half.z()}, half});
+  model.footprints.push_back(rectangle(Vector2d::Zero(), half.head<2>(), 2 * half.z()));
+  model.top_half = half.head<2>();
+  model.top_z = 2 * half.z();
+  return model;
+}
+
+/// Half a ring of capsules in the plane y = 0, both ends in the wall of the mug.
+void add_mug_handle(ObjectModel& mug, double wall_x, double middle_z, double ring_radius, double thickness) {
+  constexpr int kPieces = 8;
+  const auto at = [&](int i) {
+    const double angle = pi * (static_cast<double>(i) / kPieces - 0.5);
+    return Vector3d(wall_x + ring_radius * std::cos(angle), 0, middle_z + ring_radius * std::sin(angle));
+  };
+  for (int i = 0; i < kPieces; ++i) mug.solid.parts.emplace_back(Capsule{at(i), at(i + 1), thickness});
+  const double reach = ring_radius + thickness;
+  Footprint f = rectangle({wall_x + reach / 2, 0}, {reach / 2, thickness}, middle_z + reach);
+  f.z_min = middle_z - reach;
+  mug.footprints.push_back(f);
+}
+
+}  // namespace
+
+ObjectModel make_box(Rng& rng) {
+  std::array<double, 3> size{rng.uniform(0.025, 0.075), rng.uniform(0.045, 0.12), rng.uniform(0.07, 0.20)};
+  // Standing on a long edge is rare on real tables: lie on the largest face, on the middle one, or stand.
+  const int pose = rng.index(3);
+  if (pose == 0) std::swap(size[0], size[2]);
+  if (pose == 1) std::swap(size[1], size[2]);
+  return block("box", rng, Vector3d(size[0], size[1], size[2]) / 2);
+}
+
+ObjectModel make_book(Rng& rng) {
+  const double width = rng.uniform(0.10, 0.16);
+  return block("book", rng, Vector3d(width, width * rng.uniform(1.3, 1.5), rng.uniform(0.012, 0.045)) / 2);
+}
+
+ObjectModel make_can(Rng& rng) {
+  const double radius = rng.uniform(0.020, 0.042);
+  const double height = rng.uniform(2.2, 4.2) * radius;
+  ObjectModel model = with_part("can", rng, Cylinder{radius, 0, height});
+  model.footprints.push_back(circle(radius, height));
+  return model;
+}
+
+ObjectModel make_lying_can(Rng& rng) {
+  const double radius = rng.uniform(0.018, 0.038);
+  const double length = rng.uniform(2.5, 6.0) * radius;
+  ObjectModel model = with_part("lying_can", rng, Cylinder{radius, -length / 2, length / 2});
+  // Its axis along the world's x.
+  model.solid.T_world_solid.linear() << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+  model.solid.T_world_solid.translation() = Vector3d(0, 0, radius);
+  model.footprints.push_back(rectangle(Vector2d::Zero(), {length / 2, radius}, 2 * radius));
+  return model;
+}
+
+ObjectModel make_bottle(Rng& rng) {
+  const double radius = rng.uniform(0.027, 0.040);
+  const double shoulder = rng.uniform(3.0, 4.5) * radius;
+  const double height = shoulder + rng.uniform(1.8, 2.4) * radius;
+  ObjectModel model = with_part("bottle", rng, Cylinder{radius, 0, shoulder});
+  model.solid.parts.emplace_back(Ball{{0, 0, shoulder}, radius});
+  model.solid.parts.emplace_back(Cylinder{0.4 * radius, shoulder, height});
+  model.footprints.push_back(circle(radius, height));
+  return model;
+}
+
+ObjectModel make_ball(Rng& rng) {
+  const double radius = rng.uniform(0.022, 0.048);
+  ObjectModel model = with_part("ball", rng, Ball{{0, 0, radius}, radius});
+  model.footprints.push_back(circle(radius, 2 * radius));
+  return model;
+}
+
+ObjectModel make_bowl(Rng& rng) {
+  const double radius = rng.uniform(0.055, 0.085);
+  const double wall = rng.uniform(0.004, 0.007);
+  // The foot is cut flat within the thickness of the wall, so that the bowl stands and holds.
+  const double foot = radius - 0.4 * wall;
+  ObjectModel model = with_part("bowl", rng, BallSlice{radius, -foot, 0});
+  model.solid.cavity = Ball{Vector3d::Zero(), radius - wall};
+  model.solid.T_world_solid.translation() = Vector3d(0, 0, foot);
+  model.footprints.push_back(circle(radius, foot));
+  return model;
+}
+
+ObjectModel make_mug(Rng& rng) {
+  const double radius = rng.uniform(0.035, 0.045);
+  const double height = rng.uniform(0.08, 0.11);
+  const double wall = rng.uniform(0.004, 0.006);
+  ObjectModel model = with_part("mug", rng, Cylinder{radius, 0, height});
+  model.solid.cavity = Cylinder{radius - wall, wall, 2 * height};
+  model.footprints.push_back(circle(radius, height));
+  add_mug_handle(model, radius - wall / 2, height / 2, 0.28 * height, rng.uniform(0.004, 0.006));
+  return model;
+}
+
+ObjectModel make_random_object(Rng& rng) {
+  using Maker = ObjectModel (*)(Rng&);
+  constexpr std::array<Maker, 12> kMakers{make_box,  make_box,       make_box,    make_can,
+                                          make_can,  make_lying_can, make_bottle, make_ball,
+                                          make_bowl, make_mug,       make_mug,    make_book};
+  return kMakers[static_cast<std::size_t>(rng.index(static_cast<int>(kMakers.size())))](rng);
+}
+
+}  // namespace graspd
