@@ -2,20 +2,45 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/pipeline/detect_handles.hpp"
 
+#include "service/pipeline/candidate_checks.hpp"
+#include "service/pipeline/surfaces.hpp"
+
 namespace graspd {
 
-Detection detect_handles(const PointCloud& cloud, const Gripper&, const DetectConfig& config,
+std::optional<ConfigProblem> DetectConfig::validate() const {
+  const float ratio = neighborhoods.radius_m / downsample.leaf_size_m;
+  if (ratio < 1.5f || ratio > 8)
+    return ConfigProblem{"neighborhoods.radius_m", "expected 1.5 to 8 times downsample.leaf_size_m"};
+  return std::nullopt;
+}
+
+Detection detect_handles(const PointCloud& cloud, const Gripper& gripper, const DetectConfig& config,
                          const StageObserver& observer) {
-  Detection d;
-  d.points_in = static_cast<int>(cloud.size());
-  if (cloud.empty()) return d;
+  const auto done = [&observer](std::string_view stage) {
+    if (observer) observer(stage);
+  };
+  Detection detection;
+  detection.points_in = static_cast<int>(cloud.size());
+  if (cloud.empty()) return detection;
   const WorkspaceResult kept = filter_workspace(cloud, config.workspace);
-  if (observer) observer("workspace_filter");
-  d.points_used = static_cast<int>(kept.cloud.size());
-  d.status = kept.num_finite == 0       ? DetectionStatus::kNoFinitePoints
-             : kept.cloud.empty() ? DetectionStatus::kNothingInWorkspace
-                                  : DetectionStatus::kNoHandles;
-  return d;
+  done("workspace_filter");
+  detection.status = kept.num_finite == 0 ? DetectionStatus::kNoFinitePoints : DetectionStatus::kNothingInWorkspace;
+  if (kept.cloud.empty()) return detection;
+
+  const Surfaces surfaces = find_surfaces(kept.cloud, config, done);
+  detection.points_used = static_cast<int>(surfaces.cloud.size());
+  detection.num_segments = static_cast<int>(surfaces.segments.list.size());
+  std::vector<Candidate> candidates = search_handles(surfaces.search_input(), gripper, config.search);
+  detection.num_candidates = static_cast<int>(candidates.size());
+  done("handle_search");
+  const CheckedCandidates checked = check_candidates(kept.cloud, surfaces, candidates, gripper, config);
+  detection.candidate_failures = checked.candidate_failures;
+  detection.segment_failures = checked.segment_failures;
+  done("handle_check");
+  detection.handles = rank_handles(checked.handles, config.ranking);
+  detection.status = detection.handles.empty() ? DetectionStatus::kNoHandles : DetectionStatus::kOk;
+  done("handle_ranking");
+  return detection;
 }
 
 }  // namespace graspd

@@ -12,6 +12,7 @@
 #include "service/pipeline/handle.hpp"
 #include "service/pipeline/handle_check.hpp"
 #include "service/pipeline/point_cloud.hpp"
+#include "service/pipeline/surfaces.hpp"
 
 namespace graspd {
 
@@ -29,9 +30,6 @@ struct Detection {
   FailureCounts candidate_failures{};  ///< by the first check a candidate failed
   FailureCounts segment_failures{};    ///< segments without a handle, by the last check that one of its candidates reached
 };
-
-/// Called with a stage's name when the stage is done; the caller keeps the time.
-using StageObserver = std::function<void(std::string_view stage)>;
 
 /// Finds the handles of a cloud. The result depends on the arguments alone, to the bit, for any number of threads; work
 /// is split over the calling thread's oneTBB arena.

@@ -2,12 +2,283 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/pipeline/handle_check.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "service/pipeline/contact.hpp"
+#include "service/pipeline/patch_fit.hpp"
+
 namespace graspd {
+namespace {
+
+constexpr float kHideMargin = 0.008f;  // a place is hidden when something is nearer to the sensor by this much [m]
+
+float radians(float degrees) { return degrees * std::numbers::pi_v<float> / 180; }
+
+/// One check in progress: the gripper at the fitted pose, and the points around it relative to that pose.
+class Check {
+ public:
+  Check(const SceneView& scene, const Gripper& gripper, const HandleCheckConfig& config, const Candidate& candidate,
+        const LocalPoints& local)
+      : scene_(scene), gripper_(gripper), config_(config), candidate_(candidate), local_(local) {}
+
+  CheckResult run(const PatchFit& fit);
+
+ private:
+  [[nodiscard]] float half_opening() const {
+    return 0.5f * std::min(gripper_.aperture_m, handle_.width_m + 2 * config_.clearance_m);
+  }
+  [[nodiscard]] bool is_own(std::size_t k) const { return scene_.object[local_.index[k]] == candidate_.object; }
+  [[nodiscard]] Failure check_volumes();
+  [[nodiscard]] Failure check_support() const;
+  [[nodiscard]] Failure check_silhouettes() const;
+  [[nodiscard]] Failure check_walls() const;
+  [[nodiscard]] Failure check_contacts();
+  [[nodiscard]] Failure check_unseen();
+  void collect_between();
+  [[nodiscard]] float hidden_share(float f0, float f1, float z0, float z1, bool by_others) const;
+  [[nodiscard]] float finger_hidden_share(int side, bool by_others) const;
+  [[nodiscard]] float seen_area() const;
+  void set_width_from(const Contact& low, const Contact& high);
+
+  const SceneView& scene_;
+  const Gripper& gripper_;
+  const HandleCheckConfig& config_;
+  const Candidate& candidate_;
+  const LocalPoints& local_;
+  Handle handle_;
+  float shift_f_ = 0, shift_z_ = 0;  // from the candidate's position, where local_ is relative to, to the handle's
+  std::vector<std::uint32_t> between_;
+  float end_[2] = {0, 0};  // of the object's points between the jaws, along f from the handle's position
+  float top_ = 0;          // their smallest depth
+};
+
+Failure Check::check_volumes() {
+  const Gripper& g = gripper_;
+  const float half = half_opening(), hand = 0.5f * g.aperture_m;
+  int own = 0, other = 0, fingers = 0, palm = 0, way = 0;
+  const float palm_top = g.grasp_depth_m - g.finger_length_m, hand_top = palm_top - config_.palm_depth_m;
+  for (std::size_t k = 0; k < local_.size(); ++k) {
+    const float f = std::abs(local_.f[k] - shift_f_), z = local_.z[k] - shift_z_;
+    if (z > g.grasp_depth_m) continue;
+    if (z >= palm_top) {
+      if (f <= half)
+        (is_own(k) ? own : other) += 1;
+      else
+        fingers += f <= half + g.finger_width_m ? 1 : 0;
+    } else if (z >= hand_top) {
+      palm += f <= hand + g.finger_width_m ? 1 : 0;
+    } else {
+      way += f <= hand + g.finger_width_m && z >= hand_top - config_.way_m ? 1 : 0;
+    }
+  }
+  handle_.num_points = own;
+  if (own < 12) return Failure::kTooFewPoints;
+  if (static_cast<float>(own) < config_.min_own_share * static_cast<float>(own + other)) return Failure::kNoGap;
+  if (fingers > scene_.tolerance) return Failure::kFingers;
+  if (palm > scene_.tolerance) return Failure::kPalm;
+  return way > scene_.tolerance ? Failure::kWay : Failure::kNone;
+}
+
+Failure Check::check_support() const {
+  if (!scene_.support) return Failure::kNone;
+  const float half = half_opening(), hand = 0.5f * gripper_.aperture_m + gripper_.finger_width_m;
+  const float palm_top = gripper_.grasp_depth_m - gripper_.finger_length_m;
+  for (const float a : {-0.5f * gripper_.finger_thickness_m, 0.5f * gripper_.finger_thickness_m})
+    for (const float side : {-1.0f, 1.0f}) {
+      const auto height = [&](float f, float z) {
+        return scene_.support->plane.height(handle_.position + handle_.rotation * Eigen::Vector3f(a, side * f, z));
+      };
+      if (std::min(height(half, gripper_.grasp_depth_m), height(half + gripper_.finger_width_m, gripper_.grasp_depth_m)) <
+          config_.support_clearance_m)
+        return Failure::kSupport;
+      if (std::min(height(hand, palm_top), height(hand, palm_top - config_.palm_depth_m - config_.way_m)) < 0)
+        return Failure::kSupport;
+    }
+  return Failure::kNone;
+}
+
+void Check::collect_between() {
+  between_.clear();
+  std::vector<float> f, z;
+  const float half = half_opening();
+  for (std::size_t k = 0; k < local_.size(); ++k) {
+    const float kf = local_.f[k] - shift_f_, kz = local_.z[k] - shift_z_;
+    if (std::abs(kf) > half || kz > gripper_.grasp_depth_m || kz < gripper_.grasp_depth_m - gripper_.finger_length_m)
+      continue;
+    if (!is_own(k)) continue;
+    between_.push_back(static_cast<std::uint32_t>(k));
+    f.push_back(kf);
+    z.push_back(kz);
+  }
+  const std::size_t skip = std::min(f.size() / 4, std::max<std::size_t>(1, f.size() / 100));
+  std::sort(f.begin(), f.end());
+  std::sort(z.begin(), z.end());
+  end_[0] = f[skip];
+  end_[1] = f[f.size() - 1 - skip];
+  top_ = z[skip];
+}
+
+Failure Check::check_silhouettes() const {
+  constexpr int kSlabs = 5;
+  std::array<float, kSlabs> low, high;
+  low.fill(1);
+  high.fill(-1);
+  for (const std::uint32_t k : between_) {
+    const float along = local_.a[k] / gripper_.finger_thickness_m + 0.5f;
+    const auto slab = static_cast<std::size_t>(std::clamp(static_cast<int>(along * kSlabs), 0, kSlabs - 1));
+    low[slab] = std::min(low[slab], local_.f[k]);
+    high[slab] = std::max(high[slab], local_.f[k]);
+  }
+  const float limit = std::tan(radians(config_.max_silhouette_angle_deg));
+  for (const auto& side : {low, high}) {
+    float n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
+    for (int i = 0; i < kSlabs; ++i) {
+      if (low[static_cast<std::size_t>(i)] > high[static_cast<std::size_t>(i)]) continue;
+      const float x = (static_cast<float>(i) + 0.5f) / kSlabs * gripper_.finger_thickness_m;
+      const float y = side[static_cast<std::size_t>(i)];
+      n += 1;
+      sx += x;
+      sy += y;
+      sxx += x * x;
+      sxy += x * y;
+    }
+    if (n < 4) return Failure::kSilhouettes;
+    if (std::abs(n * sxy - sx * sy) > limit * (n * sxx - sx * sx)) return Failure::kSilhouettes;
+  }
+  return Failure::kNone;
+}
+
+Failure Check::check_walls() const {
+  constexpr float kAbove = 0.010f, kBelow = 0.005f, kBeside = 0.03f;
+  const float half = half_opening(), l = gripper_.grasp_depth_m;
+  float near_low = 1, near_high = -1, far_low = 1, far_high = -1;
+  for (std::size_t k = 0; k < local_.size(); ++k) {
+    if (!is_own(k)) continue;
+    const float f = local_.f[k] - shift_f_, z = local_.z[k] - shift_z_;
+    if (std::abs(f) > half + kBeside || z < l - gripper_.finger_length_m || z > l + kBelow) continue;
+    far_low = std::min(far_low, f);
+    far_high = std::max(far_high, f);
+    if (z > l - kAbove) continue;
+    near_low = std::min(near_low, f);
+    near_high = std::max(near_high, f);
+  }
+  if (near_high <= near_low) return Failure::kWalls;
+  const float limit = (kAbove + kBelow) * std::tan(radians(config_.max_wall_angle_deg));
+  return far_high - near_high > limit || near_low - far_low > limit ? Failure::kWalls : Failure::kNone;
+}
+
+float Check::hidden_share(float f0, float f1, float z0, float z1, bool by_others) const {
+  int samples = 0, hidden = 0;
+  for (const float a : {-0.4f, 0.0f, 0.4f})
+    for (const float s : {0.1f, 0.5f, 0.9f})
+      for (int k = 0; k < 8; ++k) {
+        const Eigen::Vector3f q(a * gripper_.finger_thickness_m, f0 + (f1 - f0) * s,
+                                z0 + (z1 - z0) * (static_cast<float>(k) + 0.5f) / 8);
+        const std::int32_t hider = scene_.depth_map.hider(handle_.position + handle_.rotation * q, kHideMargin);
+        ++samples;
+        if (hider == DepthMap::kFree) continue;
+        const bool by_own = scene_.depth_map_object[static_cast<std::size_t>(hider)] == candidate_.object;
+        hidden += by_others && by_own ? 0 : 1;
+      }
+  return static_cast<float>(hidden) / static_cast<float>(samples);
+}
+
+float Check::finger_hidden_share(int side, bool by_others) const {
+  const float sign = side == 0 ? -1.0f : 1.0f, half = half_opening(), l = gripper_.grasp_depth_m;
+  const float z0 = by_others ? l - gripper_.finger_length_m : std::min(top_, l - 0.01f);
+  return hidden_share(sign * half, sign * (half + gripper_.finger_width_m), z0, l, by_others);
+}
+
+float Check::seen_area() const {
+  // Every measured point stands for the patch of surface that its ray meets; the depth map knows how dense rays are.
+  float area = 0;
+  for (const std::uint32_t k : between_)
+    area += scene_.depth_map.ray_area(scene_.cloud.point(local_.index[k]));
+  return scene_.voxel ? area : static_cast<float>(between_.size()) * scene_.voxel_area_m2;
+}
+
+void Check::set_width_from(const Contact& low, const Contact& high) {
+  const float center = 0.5f * (low.reach_m + high.reach_m);
+  handle_.width_m = high.reach_m - low.reach_m;
+  handle_.position += handle_.rotation.col(1) * center;
+  shift_f_ += center;
+  end_[0] -= center;
+  end_[1] -= center;
+}
+
+Failure Check::check_contacts() {
+  if (seen_area() < config_.min_contact_area_m2 || gripper_.grasp_depth_m - top_ < config_.min_grip_depth_m)
+    return Failure::kContact;
+  LocalPoints moved;
+  moved.f.resize(local_.size());
+  moved.z.resize(local_.size());
+  moved.index = local_.index;
+  for (std::size_t k = 0; k < local_.size(); ++k) {
+    moved.f[k] = local_.f[k] - shift_f_;
+    moved.z[k] = local_.z[k] - shift_z_;
+  }
+  const ContactInput input{scene_, moved, between_, handle_.position, handle_.rotation, top_, gripper_.grasp_depth_m,
+                           end_[1] - end_[0], std::cos(radians(config_.max_facing_angle_deg)), gripper_.finger_width_m,
+                           gripper_.finger_thickness_m};
+  const Contact low = find_contact(input, -1, end_[0], finger_hidden_share(0, false));
+  const Contact high = find_contact(input, 1, end_[1], finger_hidden_share(1, false));
+  if (low.kind == ContactKind::kNone || high.kind == ContactKind::kNone) return Failure::kContact;
+  set_width_from(low, high);
+  return handle_.width_m > gripper_.aperture_m - 0.004f ? Failure::kTooWide : Failure::kNone;
+}
+
+Failure Check::check_unseen() {
+  const Gripper& g = gripper_;
+  float hidden[2];
+  for (int side = 0; side < 2; ++side) {
+    hidden[side] = finger_hidden_share(side, false);
+    handle_.observed_free[static_cast<std::size_t>(side)] = 1 - hidden[side];
+    if (finger_hidden_share(side, true) > 0.5f * config_.max_hidden_share) return Failure::kUnseen;
+  }
+  if (std::min(hidden[0], hidden[1]) > config_.max_hidden_share) return Failure::kUnseen;
+  const float hand = 0.5f * g.aperture_m + g.finger_width_m, palm_top = g.grasp_depth_m - g.finger_length_m;
+  const float palm = hidden_share(-hand, hand, palm_top - config_.palm_depth_m, palm_top, false);
+  return palm > config_.max_hidden_share ? Failure::kUnseen : Failure::kNone;
+}
+
+CheckResult Check::run(const PatchFit& fit) {
+  handle_.rotation = candidate_.rotation;
+  handle_.segment = candidate_.segment;
+  handle_.position = candidate_.position + candidate_.rotation * Eigen::Vector3f(0, fit.center_m, fit.top_m);
+  handle_.width_m = fit.width_m;
+  handle_.gap_m = fit.gap_m;
+  shift_f_ = fit.center_m;
+  shift_z_ = fit.top_m;
+  CheckResult result;
+  const auto passes = [&result](Failure failure) { return (result.failure = failure) == Failure::kNone; };
+  if (!passes(check_volumes()) || !passes(check_support())) return result;
+  collect_between();
+  if (!passes(check_silhouettes()) || !passes(check_walls()) || !passes(check_contacts())) return result;
+  // The contacts may have moved and widened the opening into space that nothing was seen in: look again.
+  if (!passes(check_volumes()) || !passes(check_support())) return result;
+  collect_between();
+  if (!passes(check_unseen())) return result;
+  result.handle = handle_;
+  return result;
+}
+
+}  // namespace
 
 std::string_view name(Failure failure) {
   constexpr std::array<std::string_view, kNumFailures + 1> kNames{
-      "too_few_points", "too_wide", "no_gap", "fingers", "palm", "way", "support", "silhouettes", "walls", "contact", "unseen", "none"};
+      "too_few_points", "too_wide", "no_gap",  "fingers", "palm", "way",
+      "support",        "silhouettes", "walls", "contact", "unseen", "none"};
   return kNames[static_cast<std::size_t>(failure)];
+}
+
+CheckResult check_candidate(const SceneView& scene, const Gripper& gripper, const HandleCheckConfig& config,
+                            const Candidate& candidate, CheckBuffers& buffers) {
+  PatchFit fit;
+  if (const Failure failure = fit_patch(scene, gripper, config, candidate, buffers.local, fit); failure != Failure::kNone)
+    return {failure, {}};
+  return Check(scene, gripper, config, candidate, buffers.local).run(fit);
 }
 
 }  // namespace graspd

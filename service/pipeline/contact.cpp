@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/pipeline/contact.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace graspd {
+namespace {
+
+constexpr float kEndZone = 0.004f;        // points this close to the end are the end [m]
+constexpr float kFaceLength = 0.030f;     // of the face that is carried on [m]
+constexpr float kWallShare = 0.35f;       // of the end's points that must face the jaw
+constexpr float kSeenFree = 0.2f;         // up to this hidden share a place counts as seen to be free
+constexpr float kHideMargin = 0.008f;     // nearer by this much hides [m]
+constexpr float kCameraSide = 0.40f;      // cosine: beyond it the sensor would have seen the wall
+constexpr float kMaxWedge = 0.65f;        // mean tilt of a face that ends at free space [rad]
+constexpr float kMaxFlatTilt = 0.40f;     // tilt of a flat face that is carried on [rad]
+constexpr float kMaxRadius = 0.06f;       // larger circles count as flat [m]
+
+/// A point of the face near the end: distance inwards from the end, and depth.
+struct FacePoint {
+  float in, z;
+};
+
+/// z = c0 + c1 in + c2 in^2 by iteratively reweighted least squares (Cauchy weights, scale 2 mm); in is scaled to keep
+/// the normal equations well conditioned.
+Eigen::Vector3f fit_profile(const std::vector<FacePoint>& face, float span) {
+  Eigen::Vector3f c = Eigen::Vector3f::Zero();
+  std::vector<float> weight(face.size(), 1.0f);
+  for (int round = 0; round < 5; ++round) {
+    Eigen::Matrix3f A = Eigen::Matrix3f::Identity() * 1e-6f;
+    Eigen::Vector3f b = Eigen::Vector3f::Zero();
+    for (std::size_t i = 0; i < face.size(); ++i) {
+      const float s = face[i].in / span;
+      const Eigen::Vector3f row(1, s, s * s);
+      A += weight[i] * row * row.transpose();
+      b += weight[i] * face[i].z * row;
+    }
+    c = A.ldlt().solve(b);
+    for (std::size_t i = 0; i < face.size(); ++i) {
+      const float s = face[i].in / span;
+      const float e = (c[0] + c[1] * s + c[2] * s * s - face[i].z) / 0.002f;
+      weight[i] = 1 / (1 + e * e);
+    }
+  }
+  return {c[0], c[1] / span, c[2] / (span * span)};
+}
+
+struct EndPoints {
+  int near = 0, facing = 0;
+  std::vector<FacePoint> face;
+};
+
+EndPoints collect_end(const ContactInput& in, float side, float end_m, float min_upright) {
+  EndPoints out;
+  const float length = std::min(kFaceLength, 0.7f * in.extent_m);
+  const Eigen::Vector3f jaw = side * in.rotation.col(1), approach = in.rotation.col(2);
+  for (const std::uint32_t k : in.between) {
+    const float inwards = side * (end_m - in.local.f[k]);
+    if (inwards < 0 || inwards > length) continue;
+    const Eigen::Vector3f n = in.scene.normal(in.local.index[k]);
+    if (n.isZero()) continue;
+    if (inwards <= kEndZone) {
+      ++out.near;
+      out.facing += jaw.dot(n) >= in.min_facing_cosine ? 1 : 0;
+    }
+    if (-approach.dot(n) >= min_upright) out.face.push_back({inwards, in.local.z[k]});
+  }
+  return out;
+}
+
+/// Whether something nearer hides what comes after the end, which then is no edge of the object.
+bool ends_by_occlusion(const ContactInput& in, float side, float end_m, float end_depth_m) {
+  int hidden = 0;
+  for (const float a : {-0.3f, 0.0f, 0.3f}) {
+    const Eigen::Vector3f beyond(a * in.finger_thickness_m, end_m + side * 0.006f, end_depth_m);
+    hidden += in.scene.depth_map.hider(in.position + in.rotation * beyond, kHideMargin) != DepthMap::kFree ? 1 : 0;
+  }
+  return hidden >= 2;
+}
+
+/// A face whose wall is out of sight: which way it goes on decides.
+Contact edge_contact(const ContactInput& in, float side, float end_m, float hidden_share,
+                     const std::vector<FacePoint>& face) {
+  float span = 1e-3f;
+  for (const FacePoint& f : face) span = std::max(span, f.in);
+  const Eigen::Vector3f c = fit_profile(face, span);
+  // Tilts of the face at the end, at the far side of the fitted part and between: positive falls away towards the end.
+  const float at_end = std::atan(-c[1]), inner = std::atan(-c[1] - 2 * c[2] * span);
+  const float middle = std::atan(-c[1] - c[2] * span);
+  if (ends_by_occlusion(in, side, end_m, c[0])) return {ContactKind::kNone, end_m};
+  if (hidden_share <= kSeenFree)
+    return {std::abs(0.5f * (at_end + inner)) <= kMaxWedge ? ContactKind::kFreeEdge : ContactKind::kNone, end_m};
+  const float turn = at_end - inner;
+  const float radius = turn > 0.05f ? span / (std::cos(middle) * turn) : 1e3f;
+  if (radius < kMaxRadius) return {ContactKind::kCurvedEdge, end_m + side * radius * (1 - std::sin(at_end))};
+  const float lean = std::max(0.0f, (in.depth_m - c[0]) * std::tan(-middle));
+  return {std::abs(middle) <= kMaxFlatTilt ? ContactKind::kFlatEdge : ContactKind::kNone, end_m + side * lean};
+}
+
+}  // namespace
+
+Contact find_contact(const ContactInput& in, float side, float end_m, float hidden_share) {
+  const EndPoints end = collect_end(in, side, end_m, hidden_share <= kSeenFree ? 0.5f : 0.7f);
+  if (end.near < 2) return {ContactKind::kNone, end_m};
+  if (static_cast<float>(end.facing) >= kWallShare * static_cast<float>(end.near)) return {ContactKind::kWall, end_m};
+  const Eigen::Vector3f to_sensor = (in.scene.cloud.viewpoint - in.position).normalized();
+  if (side * in.rotation.col(1).dot(to_sensor) > kCameraSide || end.face.size() < 8) return {ContactKind::kNone, end_m};
+  return edge_contact(in, side, end_m, hidden_share, end.face);
+}
+
+}  // namespace graspd

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+// What the sensor saw: a depth image rendered from the cloud, to tell free space from hidden space. It is made the same
+// way from organized and unorganized clouds.
+#pragma once
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <vector>
+
+#include "service/pipeline/point_cloud.hpp"
+
+namespace graspd {
+
+class DepthMap {
+ public:
+  /// All points must be finite.
+  explicit DepthMap(const PointCloud& cloud);
+
+  static constexpr std::int32_t kFree = -1;
+
+  /// The point of the cloud that hides p from the sensor, or kFree when nothing nearer than margin_m before it does.
+  [[nodiscard]] std::int32_t hider(const Eigen::Vector3f& p, float margin_m) const;
+
+  /// Area of the surface across the line of sight that one pixel covers at p [m2].
+  [[nodiscard]] float ray_area(const Eigen::Vector3f& p) const;
+
+ private:
+  void splat(const PointCloud& cloud);
+  void close_gaps(int max_gap);
+  [[nodiscard]] bool project(const Eigen::Vector3f& p, int& u, int& v, float& depth) const;
+
+  Eigen::Vector3f viewpoint_;
+  Eigen::Matrix3f to_view_;  // rows: right, down, forward
+  int width_ = 0, height_ = 0;
+  float focal_ = 1, center_u_ = 0, center_v_ = 0;
+  std::vector<float> depth_;           // 0: nothing seen
+  std::vector<std::int32_t> point_;    // that the depth is of
+};
+
+}  // namespace graspd

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Orders handles best first and keeps one for each distinct place.
+#pragma once
+#include <vector>
+
+#include "service/pipeline/config_fields.hpp"
+#include "service/pipeline/handle.hpp"
+
+namespace graspd {
+
+struct HandleRankingConfig {
+  int max_handles = 100;
+  int max_per_object = 3;
+  float min_score = 0.0f;
+  float distinct_distance_m = 0.02f;
+  float distinct_angle_deg = 30.0f;
+
+  template <class Self, class Visitor>
+  static void visit(Self& self, Visitor&& v) {
+    v("max_handles", self.max_handles, Range{1, 10000}, "a list has at most this many handles");
+    v("max_per_object", self.max_per_object, Range{1, 1000}, "and this many for one object");
+    v("min_score", self.min_score, Range{0, 1}, "handles below it are left out");
+    v("distinct_distance_m", self.distinct_distance_m, Range{0, 1}, "handles this close are one place [m]");
+    v("distinct_angle_deg", self.distinct_angle_deg, Range{0, 180}, "when their orientations differ by less than this [degrees]");
+  }
+};
+
+/// A handle and the object that it holds.
+struct RankedHandle {
+  Handle handle;
+  int object = -1;
+};
+
+/// Best first; ties keep the order of the input.
+[[nodiscard]] std::vector<Handle> rank_handles(std::vector<RankedHandle> handles, const HandleRankingConfig& config);
+
+}  // namespace graspd

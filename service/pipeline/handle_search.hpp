@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Candidates: gripper poses worth checking. The bands of the paper along each segment's axes, and seeds spread over each
+// object with the approaches and closing axes that its surfaces suggest.
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "service/pipeline/handle_check.hpp"
+#include "service/pipeline/normals.hpp"
+#include "service/pipeline/objects.hpp"
+#include "service/pipeline/segments.hpp"
+#include "service/pipeline/support.hpp"
+
+namespace graspd {
+
+struct HandleSearchConfig {
+  bool bands = true;
+  bool seeds = true;
+  float seed_spacing_m = 0.025f;
+  float min_facing_cosine = 0.17f;
+  float distinct_angle_deg = 12.0f;
+
+  template <class Self, class Visitor>
+  static void visit(Self& self, Visitor&& v) {
+    v("bands", self.bands, Range{}, "the paper's bands along the principal axes of each segment");
+    v("seeds", self.seeds, Range{}, "seeds over each object, with several approaches and closing axes");
+    v("seed_spacing_m", self.seed_spacing_m, Range{0.005, 1}, "between seeds [m]");
+    v("min_facing_cosine", self.min_facing_cosine, Range{0, 1},
+      "cosine between the line of sight and the approach; smaller: the hand comes from behind");
+    v("distinct_angle_deg", self.distinct_angle_deg, Range{1, 90}, "directions closer than this are tried once [degrees]");
+  }
+};
+
+/// The frame as the search sees it: voxels, their normals, segments and objects.
+struct SearchInput {
+  const PointCloud& cloud;
+  const Normals& normals;
+  const Segments& segments;
+  const Objects& objects;
+  const std::optional<Support>& support;
+};
+
+[[nodiscard]] std::vector<Candidate> search_handles(const SearchInput& input, const Gripper& gripper,
+                                                    const HandleSearchConfig& config);
+
+}  // namespace graspd

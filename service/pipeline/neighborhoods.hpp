@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The neighbourhood N(s) of every point (paper, equation 1), computed once for normals, edge points and growing.
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "service/pipeline/config_fields.hpp"
+#include "service/pipeline/point_cloud.hpp"
+
+namespace graspd {
+
+struct NeighborhoodsConfig {
+  float radius_m = 0.009f;
+
+  template <class Self, class Visitor>
+  static void visit(Self& self, Visitor&& v) {
+    v("radius_m", self.radius_m, Range{0.001, 0.3}, "r: radius of the neighbourhood of a point [m]");
+  }
+};
+
+/// For each point the indices of all points within the radius, itself included.
+class Neighborhoods {
+ public:
+  [[nodiscard]] std::size_t size() const { return lists_.size(); }
+  [[nodiscard]] std::span<const std::uint32_t> of(std::size_t point) const { return lists_[point]; }
+
+ private:
+  friend Neighborhoods find_neighborhoods(const PointCloud&, const NeighborhoodsConfig&);
+  std::vector<std::span<const std::uint32_t>> lists_;
+  std::vector<std::vector<std::uint32_t>> storage_;
+};
+
+/// All points must be finite. The order within a list is fixed by the points' positions.
+[[nodiscard]] Neighborhoods find_neighborhoods(const PointCloud& cloud, const NeighborhoodsConfig& config);
+
+}  // namespace graspd

@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/pipeline/objects.hpp"
+
+#include <map>
+#include <utility>
+
+#include "service/pipeline/union_find.hpp"
+
+namespace graspd {
+namespace {
+
+struct Border {
+  int pairs = 0;
+  int convex = 0;
+};
+using Borders = std::map<std::pair<std::int32_t, std::int32_t>, Border>;
+
+Borders find_borders(const PointCloud& cloud, const Normals& normals, const Neighborhoods& neighborhoods,
+                     const std::vector<std::int32_t>& segment_of_point) {
+  Borders borders;
+  for (std::uint32_t i = 0; i < cloud.size(); ++i) {
+    const std::int32_t a = segment_of_point[i];
+    if (a < 0) continue;
+    for (const std::uint32_t j : neighborhoods.of(i)) {
+      const std::int32_t b = segment_of_point[j];
+      if (b <= a) continue;
+      Border& border = borders[{a, b}];
+      ++border.pairs;
+      const float bend = (normals.at(i) - normals.at(j)).dot(cloud.point(i) - cloud.point(j));
+      border.convex += bend > 0 ? 1 : 0;
+    }
+  }
+  return borders;
+}
+
+/// Gives each point that has none the object of most of its neighbours.
+std::vector<std::int32_t> filled(const Neighborhoods& neighborhoods, const std::vector<std::uint8_t>& is_support,
+                                 const std::vector<std::int32_t>& of_point) {
+  std::vector<std::int32_t> result = of_point;
+  std::map<std::int32_t, int> votes;
+  for (std::size_t i = 0; i < of_point.size(); ++i) {
+    if (of_point[i] >= 0 || (!is_support.empty() && is_support[i])) continue;
+    votes.clear();
+    for (const std::uint32_t j : neighborhoods.of(i))
+      if (of_point[j] >= 0) ++votes[of_point[j]];
+    int most = 0;
+    for (const auto& [object, count] : votes) {
+      if (count <= most) continue;
+      most = count;
+      result[i] = object;
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+Objects group_segments(const PointCloud& cloud, const Normals& normals, const Neighborhoods& neighborhoods,
+                       const Segments& segments, const std::vector<std::uint8_t>& is_support,
+                       const ObjectsConfig& config) {
+  UnionFind sets(segments.list.size());
+  for (const auto& [pair, border] : find_borders(cloud, normals, neighborhoods, segments.of_point)) {
+    if (border.pairs < config.min_border_pairs) continue;
+    if (static_cast<float>(border.convex) < config.min_convex_share * static_cast<float>(border.pairs)) continue;
+    sets.unite(static_cast<std::uint32_t>(pair.first), static_cast<std::uint32_t>(pair.second));
+  }
+  Objects objects;
+  objects.of_segment.assign(segments.list.size(), -1);
+  for (std::uint32_t s = 0; s < segments.list.size(); ++s) {
+    const std::uint32_t root = sets.find(s);
+    objects.of_segment[s] = root == s ? objects.num_objects++ : objects.of_segment[root];
+  }
+  objects.of_point.assign(cloud.size(), -1);
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const std::int32_t s = segments.of_point[i];
+    if (s >= 0) objects.of_point[i] = objects.of_segment[static_cast<std::size_t>(s)];
+  }
+  for (int round = 0; round < 2; ++round) objects.of_point = filled(neighborhoods, is_support, objects.of_point);
+  return objects;
+}
+
+}  // namespace graspd

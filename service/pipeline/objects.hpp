@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Object hypotheses: segments that meet at a convex border are taken for one object.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "service/pipeline/neighborhoods.hpp"
+#include "service/pipeline/normals.hpp"
+#include "service/pipeline/segments.hpp"
+
+namespace graspd {
+
+struct ObjectsConfig {
+  float min_convex_share = 0.6f;
+  int min_border_pairs = 8;
+
+  template <class Self, class Visitor>
+  static void visit(Self& self, Visitor&& v) {
+    v("min_convex_share", self.min_convex_share, Range{0, 1}, "segments are one object when this share of their border is convex");
+    v("min_border_pairs", self.min_border_pairs, Range{1, 100000}, "and their border has this many pairs of neighbours");
+  }
+};
+
+struct Objects {
+  int num_objects = 0;
+  std::vector<std::int32_t> of_segment;  ///< object of each segment
+  std::vector<std::int32_t> of_point;    ///< object of each point; -1: none
+};
+
+/// A pair of neighbours i, j of two segments is convex when (n_i - n_j) . (p_i - p_j) > 0. Points in no segment take the
+/// object of most of their neighbours, except those of the support (is_support, may be empty).
+[[nodiscard]] Objects group_segments(const PointCloud& cloud, const Normals& normals, const Neighborhoods& neighborhoods,
+                                     const Segments& segments, const std::vector<std::uint8_t>& is_support,
+                                     const ObjectsConfig& config);
+
+}  // namespace graspd

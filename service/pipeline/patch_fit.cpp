@@ -1,0 +1,149 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/pipeline/patch_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace graspd {
+namespace {
+
+constexpr float kBin = 0.001f;       // of the profile along the closing axis [m]
+constexpr float kTopWindow = 0.012f; // around the candidate's position, where the top is looked for first [m]
+
+/// Occupancy along the closing axis.
+struct Profile {
+  float first_m;                ///< of bin 0
+  std::vector<int> own, all;
+
+  Profile(float half_length) : first_m(-half_length) {
+    const auto bins = static_cast<std::size_t>(2 * half_length / kBin) + 1;
+    own.resize(bins);
+    all.resize(bins);
+  }
+  [[nodiscard]] int bin(float f) const { return static_cast<int>((f - first_m) / kBin); }
+  [[nodiscard]] float at(int bin) const { return first_m + kBin * static_cast<float>(bin); }
+  [[nodiscard]] int size() const { return static_cast<int>(all.size()); }
+};
+
+/// Walks outwards from a bin over occupied bins; stops before the first gap of min_gap bins. Returns the last occupied
+/// bin, and in next the first occupied one beyond the gap (or the end of the profile).
+int walk(const Profile& profile, int from, int step, int min_gap, int& next) {
+  int last = from;
+  for (int b = from; b >= 0 && b < profile.size(); b += step) {
+    if (profile.all[static_cast<std::size_t>(b)] == 0) continue;
+    if (std::abs(b - last) > min_gap) {
+      next = b;
+      return last;
+    }
+    last = b;
+  }
+  next = step < 0 ? -1 : profile.size();
+  return last;
+}
+
+/// Depth that only a few of the object's points within the window are above.
+bool find_top(const LocalPoints& local, const std::vector<std::uint8_t>& own, float f_min, float f_max, float& top_m) {
+  std::vector<float> z;
+  for (std::size_t k = 0; k < local.size(); ++k)
+    if (own[k] && local.f[k] >= f_min && local.f[k] <= f_max) z.push_back(local.z[k]);
+  if (z.size() < 4) return false;
+  const std::size_t skip = std::min(z.size() / 4, std::max<std::size_t>(1, z.size() / 50));
+  std::nth_element(z.begin(), z.begin() + static_cast<std::ptrdiff_t>(skip), z.end());
+  top_m = z[skip];
+  return true;
+}
+
+/// How much less deep the fingertips must go so that they stay above the support and clear of what is below.
+float raise_for_obstacles(const SceneView& scene, const Gripper& g, const HandleCheckConfig& config,
+                          const Candidate& candidate, const LocalPoints& local, const PatchFit& fit) {
+  const float half = 0.5f * std::min(g.aperture_m, fit.width_m + 2 * config.clearance_m);
+  float raise = 0;
+  if (scene.support) {
+    const Plane& plane = scene.support->plane;
+    const float steepness = -candidate.rotation.col(2).dot(plane.normal);
+    if (steepness > 0.1f)
+      for (const float a : {-0.5f, 0.5f})
+        for (const float f : {-half - g.finger_width_m, half + g.finger_width_m}) {
+          const Eigen::Vector3f tip(a * g.finger_thickness_m, fit.center_m + f, fit.top_m + g.grasp_depth_m);
+          const float height = plane.height(candidate.position + candidate.rotation * tip);
+          raise = std::max(raise, (config.support_clearance_m + 0.002f - height) / steepness);
+        }
+  }
+  std::vector<float> hits;  // depths above the fingertips' at which something is in a finger's way
+  for (std::size_t k = 0; k < local.size(); ++k) {
+    const float f = std::abs(local.f[k] - fit.center_m), z = local.z[k] - fit.top_m;
+    if (f > half && f <= half + g.finger_width_m && z <= g.grasp_depth_m && z >= g.grasp_depth_m - g.finger_length_m)
+      hits.push_back(g.grasp_depth_m - z);
+  }
+  const auto allowed = static_cast<std::size_t>(scene.tolerance / 2);
+  if (hits.size() > allowed) {
+    const auto nth = hits.begin() + static_cast<std::ptrdiff_t>(allowed);
+    std::nth_element(hits.begin(), nth, hits.end(), std::greater<>());
+    raise = std::max(raise, *nth + 0.001f);
+  }
+  return raise;
+}
+
+/// The patch around position f0: between the nearest gaps on both sides, at depths down to l below top.
+Failure find_patch(const SceneView& scene, const Gripper& g, const Candidate& candidate, const LocalPoints& local,
+                   float f0, PatchFit& fit) {
+  Profile profile(0.5f * g.aperture_m + g.aperture_m + g.min_gap_m);
+  for (std::size_t k = 0; k < local.size(); ++k) {
+    const float z = local.z[k] - fit.top_m;
+    if (z > g.grasp_depth_m || z < g.grasp_depth_m - g.finger_length_m) continue;
+    const int b = profile.bin(local.f[k]);
+    // Where the support is in the way, the fingers go less deep (below): it does not widen the patch.
+    if (b < 0 || b >= profile.size() || scene.is_support(local.index[k])) continue;
+    ++profile.all[static_cast<std::size_t>(b)];
+    profile.own[static_cast<std::size_t>(b)] += scene.object[local.index[k]] == candidate.object ? 1 : 0;
+  }
+  int start = profile.bin(f0);
+  for (int d = 0; d < static_cast<int>(0.5f * g.aperture_m / kBin); ++d) {
+    const auto own_at = [&](int b) { return b >= 0 && b < profile.size() && profile.own[static_cast<std::size_t>(b)] > 0; };
+    if (own_at(start + d)) { start += d; break; }
+    if (own_at(start - d)) { start -= d; break; }
+  }
+  if (start < 0 || start >= profile.size() || profile.own[static_cast<std::size_t>(start)] == 0)
+    return Failure::kTooFewPoints;
+  const int min_gap = static_cast<int>(g.min_gap_m / kBin);
+  int below = 0, beyond = 0;
+  const int low = walk(profile, start, -1, min_gap, below), high = walk(profile, start, 1, min_gap, beyond);
+  fit.width_m = kBin * static_cast<float>(high - low + 1);
+  fit.center_m = profile.at(low) + 0.5f * fit.width_m;
+  fit.gap_m = {std::min(g.aperture_m, kBin * static_cast<float>(low - below - 1)),
+               std::min(g.aperture_m, kBin * static_cast<float>(beyond - high - 1))};
+  if (fit.width_m <= g.aperture_m - 0.002f) return Failure::kNone;
+  int other = 0;
+  for (int b = low; b <= high; ++b)
+    other += profile.all[static_cast<std::size_t>(b)] > profile.own[static_cast<std::size_t>(b)] ? 1 : 0;
+  return other > 3 ? Failure::kNoGap : Failure::kTooWide;
+}
+
+}  // namespace
+
+Failure fit_patch(const SceneView& scene, const Gripper& gripper, const HandleCheckConfig& config,
+                  const Candidate& candidate, LocalPoints& local, PatchFit& fit) {
+  const Gripper& g = gripper;
+  const float reach = 1.5f * g.aperture_m + g.min_gap_m;
+  const float back = g.finger_length_m - g.grasp_depth_m + config.palm_depth_m + config.way_m + 0.03f;
+  scene.query.find(candidate.position, candidate.rotation, {-0.5f * g.finger_thickness_m, -reach, -back},
+                   {0.5f * g.finger_thickness_m, reach, g.grasp_depth_m + 0.03f}, local);
+  std::vector<std::uint8_t> own(local.size());
+  for (std::size_t k = 0; k < local.size(); ++k) own[k] = scene.object[local.index[k]] == candidate.object;
+
+  if (!find_top(local, own, -kTopWindow, kTopWindow, fit.top_m)) return Failure::kTooFewPoints;
+  if (const Failure failure = find_patch(scene, g, candidate, local, 0, fit); failure != Failure::kNone) return failure;
+  // The top of the whole patch may be higher than where the search began; then the depths below it are others.
+  if (!find_top(local, own, fit.center_m - 0.5f * fit.width_m, fit.center_m + 0.5f * fit.width_m, fit.top_m))
+    return Failure::kTooFewPoints;
+  if (const Failure failure = find_patch(scene, g, candidate, local, fit.center_m, fit); failure != Failure::kNone)
+    return failure;
+  const float raise = raise_for_obstacles(scene, g, config, candidate, local, fit);
+  if (raise > g.grasp_depth_m - config.min_grip_depth_m) return Failure::kFingers;
+  fit.top_m -= raise;
+  return Failure::kNone;
+}
+
+}  // namespace graspd

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/pipeline/segments.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+
+namespace graspd {
+namespace {
+
+void set_axes(const PointCloud& cloud, Segment& segment) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const std::uint32_t i : segment.points) mean += cloud.point(i).cast<double>();
+  mean /= static_cast<double>(segment.points.size());
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (const std::uint32_t i : segment.points) {
+    const Eigen::Vector3d d = cloud.point(i).cast<double>() - mean;
+    covariance += d * d.transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
+  segment.centroid = mean.cast<float>();
+  segment.normal = solver.eigenvectors().col(0).cast<float>();
+  if (segment.normal.dot(cloud.viewpoint - segment.centroid) < 0) segment.normal = -segment.normal;
+  segment.major = solver.eigenvectors().col(2).cast<float>();
+  segment.minor = segment.normal.cross(segment.major);
+}
+
+}  // namespace
+
+Segments build_segments(const PointCloud& cloud, const Labels& labels, float leaf_size_m, const SegmentsConfig& config) {
+  std::vector<std::uint32_t> count(static_cast<std::size_t>(labels.num_labels));
+  for (const std::int32_t label : labels.of_point)
+    if (label >= 0) ++count[static_cast<std::size_t>(label)];
+  const float min_points = std::max(3.0f, config.min_area_m2 / (leaf_size_m * leaf_size_m));
+
+  Segments segments;
+  std::vector<std::int32_t> segment_of_label(count.size(), -1);
+  for (std::size_t label = 0; label < count.size(); ++label) {
+    if (static_cast<float>(count[label]) < min_points) continue;
+    segment_of_label[label] = static_cast<std::int32_t>(segments.list.size());
+    segments.list.emplace_back().points.reserve(count[label]);
+  }
+  segments.of_point.assign(cloud.size(), -1);
+  for (std::uint32_t i = 0; i < cloud.size(); ++i) {
+    if (labels.of_point[i] < 0) continue;
+    const std::int32_t s = segment_of_label[static_cast<std::size_t>(labels.of_point[i])];
+    segments.of_point[i] = s;
+    if (s >= 0) segments.list[static_cast<std::size_t>(s)].points.push_back(i);
+  }
+  tbb::parallel_for(std::size_t{0}, segments.list.size(), [&](std::size_t s) { set_axes(cloud, segments.list[s]); });
+  return segments;
+}
+
+}  // namespace graspd

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/pipeline/smoothing.hpp"
+
+#include <tbb/parallel_for.h>
+
+namespace graspd {
+
+PointCloud smooth(const PointCloud& cloud, const Normals& normals, const Neighborhoods& neighborhoods) {
+  constexpr float kMinCosine = 0.7071f;
+  PointCloud moved = cloud;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cloud.size(), 1024), [&](const auto& range) {
+    for (std::size_t s = range.begin(); s != range.end(); ++s) {
+      const Eigen::Vector3f p = cloud.point(s), n = normals.at(s);
+      float sum = 0, count = 0;
+      for (const std::uint32_t i : neighborhoods.of(s)) {
+        if (normals.at(i).dot(n) < kMinCosine) continue;
+        sum += n.dot(cloud.point(i) - p);
+        count += 1;
+      }
+      if (count == 0) continue;
+      const Eigen::Vector3f q = p + n * (sum / count);
+      moved.x[s] = q.x();
+      moved.y[s] = q.y();
+      moved.z[s] = q.z();
+    }
+  });
+  return moved;
+}
+
+}  // namespace graspd

@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/pipeline/support.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace graspd {
+namespace {
+
+constexpr std::size_t kSampleSize = 3000;
+
+struct Sample {
+  std::vector<Eigen::Vector3f> points, normals;
+};
+
+/// Every k-th point: voxels are spread evenly over surfaces, so that this is too.
+Sample thin_out(const PointCloud& cloud, const Normals& normals) {
+  Sample sample;
+  const std::size_t step = std::max<std::size_t>(1, cloud.size() / kSampleSize);
+  for (std::size_t i = 0; i < cloud.size(); i += step) {
+    sample.points.push_back(cloud.point(i));
+    sample.normals.push_back(normals.at(i));
+  }
+  return sample;
+}
+
+/// Inliers less the points that lie behind the plane, where a support that hides what is behind it has none.
+int plane_score(const Sample& sample, const Plane& plane, float thickness_m, float min_cosine) {
+  int inliers = 0, behind = 0;
+  for (std::size_t i = 0; i < sample.points.size(); ++i) {
+    const float height = plane.height(sample.points[i]);
+    inliers += (std::abs(height) < thickness_m && plane.normal.dot(sample.normals[i]) > min_cosine) ? 1 : 0;
+    behind += height < -3 * thickness_m ? 1 : 0;
+  }
+  return inliers - behind;
+}
+
+std::optional<Plane> plane_through(const Sample& sample, const std::array<std::size_t, 3>& at, float min_cosine,
+                                   const Eigen::Vector3f& viewpoint) {
+  const Eigen::Vector3f& a = sample.points[at[0]];
+  Eigen::Vector3f normal = (sample.points[at[1]] - a).cross(sample.points[at[2]] - a);
+  if (normal.norm() < 1e-6f) return std::nullopt;
+  normal.normalize();
+  if (normal.dot(viewpoint - a) < 0) normal = -normal;
+  for (const std::size_t i : at)
+    if (normal.dot(sample.normals[i]) < min_cosine) return std::nullopt;
+  return Plane{normal, -normal.dot(a)};
+}
+
+std::optional<Plane> best_hypothesis(const Sample& sample, const SupportConfig& config, float min_cosine,
+                                     const Eigen::Vector3f& viewpoint) {
+  if (sample.points.size() < 3) return std::nullopt;
+  std::minstd_rand random(1);
+  std::vector<Plane> planes;
+  for (int trial = 0; trial < 20 * config.hypotheses && static_cast<int>(planes.size()) < config.hypotheses; ++trial) {
+    std::array<std::size_t, 3> at{};
+    for (std::size_t& i : at) i = random() % sample.points.size();
+    if (const auto plane = plane_through(sample, at, min_cosine, viewpoint)) planes.push_back(*plane);
+  }
+  std::vector<int> scores(planes.size());
+  tbb::parallel_for(std::size_t{0}, planes.size(), [&](std::size_t i) {
+    scores[i] = plane_score(sample, planes[i], config.thickness_m, min_cosine);
+  });
+  const auto best = std::max_element(scores.begin(), scores.end());
+  if (best == scores.end() || *best <= 0) return std::nullopt;
+  return planes[static_cast<std::size_t>(best - scores.begin())];
+}
+
+/// Least squares over the inliers; returns their number and sets sigma.
+std::size_t refine(const PointCloud& cloud, const Normals& normals, float thickness_m, float min_cosine, Plane& plane,
+                   float& sigma_m) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Eigen::Vector3f p = cloud.point(i);
+    if (std::abs(plane.height(p)) >= thickness_m || plane.normal.dot(normals.at(i)) <= min_cosine) continue;
+    const Eigen::Vector3d q = p.cast<double>();
+    sum += q;
+    squares += q * q.transpose();
+    ++n;
+  }
+  if (n < 3) return n;
+  const Eigen::Vector3d mean = sum / static_cast<double>(n);
+  const Eigen::Matrix3d covariance = squares / static_cast<double>(n) - mean * mean.transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
+  Eigen::Vector3f normal = solver.eigenvectors().col(0).cast<float>();
+  if (normal.dot(plane.normal) < 0) normal = -normal;
+  plane = {normal, -normal.dot(mean.cast<float>())};
+  sigma_m = static_cast<float>(std::sqrt(std::max(0.0, solver.eigenvalues()(0))));
+  return n;
+}
+
+}  // namespace
+
+float support_thickness(const Eigen::Vector3f& p, const Eigen::Vector3f& viewpoint, float sigma_m,
+                        const SupportConfig& config) {
+  const float beyond = std::max(0.0f, (p - viewpoint).norm() - 0.8f);
+  return std::max(config.thickness_m, 3.5f * sigma_m) + config.thickness_per_m * beyond;
+}
+
+std::optional<Support> find_support(const PointCloud& cloud, const Normals& normals, float leaf_size_m,
+                                    const SupportConfig& config) {
+  if (!config.enabled) return std::nullopt;
+  const float min_cosine = std::cos(config.max_normal_angle_deg * std::numbers::pi_v<float> / 180);
+  const auto hypothesis = best_hypothesis(thin_out(cloud, normals), config, min_cosine, cloud.viewpoint);
+  if (!hypothesis) return std::nullopt;
+  Support support;
+  support.plane = *hypothesis;
+  std::size_t inliers = 0;
+  for (int round = 0; round < 3; ++round)
+    inliers = refine(cloud, normals, config.thickness_m, min_cosine, support.plane, support.sigma_m);
+  if (static_cast<float>(inliers) * leaf_size_m * leaf_size_m < config.min_area_m2) return std::nullopt;
+  support.is_support.resize(cloud.size());
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Eigen::Vector3f p = cloud.point(i);
+    support.is_support[i] =
+        support.plane.height(p) < support_thickness(p, cloud.viewpoint, support.sigma_m, config) ? 1 : 0;
+  }
+  return support;
+}
+
+}  // namespace graspd

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The first half of the method: from points to segments and objects (paper, section 4).
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "service/pipeline/detect_config.hpp"
+
+namespace graspd {
+
+/// Called with a stage's name when the stage is done; the caller keeps the time.
+using StageObserver = std::function<void(std::string_view stage)>;
+
+/// Everything that is known of the voxels' surfaces; vectors have one element a voxel.
+struct Surfaces {
+  PointCloud cloud;
+  std::vector<std::uint32_t> voxel_of_point;  ///< for each point before downsampling
+  Normals normals;
+  std::vector<std::uint8_t> is_edge;
+  std::optional<Support> support;
+  Segments segments;
+  Objects objects;
+
+  [[nodiscard]] SearchInput search_input() const { return {cloud, normals, segments, objects, support}; }
+};
+
+/// All points must be finite, and there must be at least one.
+[[nodiscard]] Surfaces find_surfaces(const PointCloud& cloud, const DetectConfig& config, const StageObserver& done);
+
+}  // namespace graspd
