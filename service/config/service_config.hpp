@@ -62,7 +62,8 @@ struct ServiceConfig {
     v("lcm", self.lcm, "the bus");
     v("workers", self.workers, Range{1, 64}, "frames in work at the same time at most");
     v("threads", self.threads, Range{0, 256},
-      "threads for all frames together, at least one a worker; 0: one a core");
+      "threads that a frame is split over at most: its worker, and helpers that all workers share; 0: one a "
+      "core");
     v("on_stop", self.on_stop, Range{},
       "at SIGINT or SIGTERM, frames that wait or are in work: finish them (for a second at most) or drop "
       "them");

@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/daemon/frame_processor.hpp"
+
+#include <exception>
+#include <utility>
+#include <variant>
+
+#include "service/pipeline/detect_handles.hpp"
+#include "service/transport/cloud_decoder.hpp"
+
+namespace graspd {
+namespace {
+
+std::string status_text(const Detection& detection) {
+  switch (detection.status) {
+    case DetectionStatus::kOk:
+      return std::to_string(detection.handles.size()) + " handles";
+    case DetectionStatus::kEmptyCloud:
+      return "the cloud has no points";
+    case DetectionStatus::kNoFinitePoints:
+      return "no point of the cloud is finite";
+    case DetectionStatus::kNothingInWorkspace:
+      return "no finite point is inside the workspace";
+    case DetectionStatus::kNoHandles:
+      return "no candidate of " + std::to_string(detection.num_candidates) + " can be held";
+  }
+  return "";
+}
+
+/// Times between calls.
+class StageTimer {
+ public:
+  explicit StageTimer(const Clock& clock) : clock_(clock), last_(clock.now()) {}
+
+  void stage_done(std::string_view stage) {
+    const Clock::TimePoint now = clock_.now();
+    stages_ms.emplace_back(stage, milliseconds(now - last_));
+    last_ = now;
+  }
+
+  std::vector<std::pair<std::string, double>> stages_ms;
+
+ private:
+  const Clock& clock_;
+  Clock::TimePoint last_;
+};
+
+}  // namespace
+
+FrameProcessor::FrameProcessor(const SourceConfig& source, std::string channel, const DecodeLimits& limits,
+                               const Clock& clock)
+    : source_(source), channel_(std::move(channel)), limits_(limits), clock_(clock) {}
+
+Answer FrameProcessor::process(const FrameMessage& message, const std::atomic<bool>& cancelled) const {
+  try {
+    return detect(message, cancelled);
+  } catch (const Cancelled&) {
+    return drop(message, "graspd stops");
+  } catch (const std::exception& e) {
+    return fail(message, e.what());
+  } catch (...) {
+    return fail(message, "unknown exception");
+  }
+}
+
+Answer FrameProcessor::detect(const FrameMessage& message, const std::atomic<bool>& cancelled) const {
+  StageTimer timer(clock_);
+  const auto on_stage = [&](std::string_view stage) {
+    timer.stage_done(stage);
+    if (cancelled) throw Cancelled{};
+  };
+  const std::variant<Frame, Refusal> decoded = decode_cloud(message.bytes, limits_);
+  if (const auto* refusal = std::get_if<Refusal>(&decoded)) return refused(*refusal, message.arrival);
+  on_stage("decode");
+  const Frame& frame = std::get<Frame>(decoded);
+  const Gripper& gripper = source_.gripper.gripper;
+  const Detection detection = detect_handles(frame.cloud, gripper, source_.detect, on_stage);
+  HandleListHeader header = list_header({frame.utime, frame.seq, frame.frame_name});
+  header.status = wire_status(detection.status);
+  header.status_text = status_text(detection);
+  header.stages_ms = std::move(timer.stages_ms);
+  return {Outcome::kProcessed, std::nullopt, message.arrival,
+          make_handle_list(header, gripper, detection, source_.sensor_pose.T_target_cloud())};
+}
+
+Answer FrameProcessor::refuse(std::span<const std::byte> bytes, Clock::TimePoint arrival) const {
+  const FrameHeader header = peek_header(bytes, limits_);
+  return refused({RefusalReason::kTooLarge,
+                  "message of " + std::to_string(bytes.size()) + " bytes, at most " +
+                      std::to_string(limits_.max_message_bytes) + " are accepted",
+                  header.utime, header.seq, header.frame_name},
+                 arrival);
+}
+
+Answer FrameProcessor::drop(const FrameMessage& message, const std::string& why) const {
+  HandleListHeader header = list_header(message.header);
+  header.status = handle_list_t::OVERLOADED;
+  header.status_text = why;
+  return without_detection(Outcome::kDropped, std::move(header), message.arrival);
+}
+
+Answer FrameProcessor::fail(const FrameMessage& message, const std::string& why) const {
+  HandleListHeader header = list_header(message.header);
+  header.status = handle_list_t::FAILED;
+  header.status_text = why;
+  return without_detection(Outcome::kFailed, std::move(header), message.arrival);
+}
+
+Answer FrameProcessor::refused(const Refusal& refusal, Clock::TimePoint arrival) const {
+  HandleListHeader header = list_header({refusal.utime, refusal.seq, refusal.frame_name});
+  header.status = handle_list_t::REFUSED;
+  header.status_text = std::string(name(refusal.reason)) + ": " + refusal.text;
+  Answer answer = without_detection(Outcome::kRefused, std::move(header), arrival);
+  answer.refusal = refusal.reason;
+  return answer;
+}
+
+HandleListHeader FrameProcessor::list_header(const FrameHeader& header) const {
+  HandleListHeader list;
+  list.utime = header.utime;
+  list.seq = header.seq;
+  list.source_channel = channel_;
+  list.frame_name = source_.sensor_pose.given() ? source_.sensor_pose.frame_name : header.frame_name;
+  return list;
+}
+
+Answer FrameProcessor::without_detection(Outcome outcome, HandleListHeader header,
+                                         Clock::TimePoint arrival) const {
+  return {outcome, std::nullopt, arrival,
+          make_handle_list(header, source_.gripper.gripper, Detection{}, Eigen::Isometry3f::Identity())};
+}
+
+}  // namespace graspd

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+// One message's way: bytes, decode, detect_handles, handle list.
+#pragma once
+#include <atomic>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "service/config/source_config.hpp"
+#include "service/daemon/answer.hpp"
+#include "service/runtime/clock.hpp"
+#include "service/transport/frame.hpp"
+#include "service/transport/handle_list_codec.hpp"
+#include "service/transport/refusal.hpp"
+
+namespace graspd {
+
+/// A message that has arrived.
+struct FrameMessage {
+  FrameHeader header;
+  std::vector<std::byte> bytes;
+  Clock::TimePoint arrival{};
+};
+
+/// For one channel of one source. Its functions may be called from several threads at once.
+class FrameProcessor {
+ public:
+  FrameProcessor(const SourceConfig& source, std::string channel, const DecodeLimits& limits,
+                 const Clock& clock);
+
+  /// Exceptions from the frame become an answer FAILED. When `cancelled` becomes true the frame ends after
+  /// the stage it is in, as dropped.
+  [[nodiscard]] Answer process(const FrameMessage& message, const std::atomic<bool>& cancelled) const;
+
+  /// For a message that is larger than the limits, without a copy of it.
+  [[nodiscard]] Answer refuse(std::span<const std::byte> bytes, Clock::TimePoint arrival) const;
+  [[nodiscard]] Answer drop(const FrameMessage& message, const std::string& why) const;
+  [[nodiscard]] Answer fail(const FrameMessage& message, const std::string& why) const;
+
+ private:
+  struct Cancelled {};
+
+  Answer detect(const FrameMessage& message, const std::atomic<bool>& cancelled) const;
+  Answer refused(const Refusal& refusal, Clock::TimePoint arrival) const;
+  HandleListHeader list_header(const FrameHeader& header) const;
+  Answer without_detection(Outcome outcome, HandleListHeader header, Clock::TimePoint arrival) const;
+
+  const SourceConfig source_;
+  const std::string channel_;
+  const DecodeLimits limits_;
+  const Clock& clock_;
+};
+
+}  // namespace graspd

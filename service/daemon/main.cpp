@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+// graspd: clouds in over LCM, handle lists out.
+#include <CLI/CLI.hpp>
+
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <optional>
+#include <string>
+
+#include "service/config/config_folders.hpp"
+#include "service/config/service_config.hpp"
+#include "service/daemon/daemon.hpp"
+#include "service/daemon/stop_signals.hpp"
+#include "service/daemon/version.hpp"
+#include "service/runtime/clock.hpp"
+#include "service/runtime/log.hpp"
+#include "service/transport/lcm_bus.hpp"
+#include "service/transport/lcm_url.hpp"
+
+namespace {
+
+using namespace graspd;
+
+constexpr int kFailed = 1;
+constexpr int kBadUsage = 2;
+constexpr const char* kSystemConfig = "/etc/graspd/graspd.yaml";
+
+struct Options {
+  std::string config_file;
+  std::string lcm_url;
+  std::string gripper;
+  std::optional<int> workers;
+  std::optional<int> threads;
+  bool check_config = false;
+  bool print_config = false;
+};
+
+/// An exit code when the program ends here.
+std::optional<int> parse(int argc, char** argv, Options& options) {
+  CLI::App app{
+      "Finds places where a two-finger gripper can hold something: point clouds in over LCM, handle lists "
+      "out."};
+  app.set_version_flag("--version", "graspd " + std::string(kVersion));
+  app.add_option("-c,--config", options.config_file,
+                 std::string("Service file; default: ") + kSystemConfig +
+                     " where it exists, else the built-in defaults");
+  app.add_flag("--check-config", options.check_config, "Only say whether the configuration can be used");
+  app.add_flag("--print-config", options.print_config,
+               "Only print the complete configuration, with every key's meaning");
+  app.add_option(
+      "-l,--lcm-url", options.lcm_url,
+      "LCM URL; default: the configuration's, else LCM_DEFAULT_URL, else udpm://239.255.76.67:7667?ttl=0");
+  app.add_option("--gripper", options.gripper, "Gripper for all sources: a name in grippers/ or a file");
+  app.add_option("--workers", options.workers, "Frames in work at the same time at most")
+      ->check(CLI::Range(1, 64));
+  app.add_option("--threads", options.threads, "Threads a frame is split over at most; 0: one a core")
+      ->check(CLI::Range(0, 256));
+  app.footer("Exit code: 0 stopped as asked, 1 failed, 2 wrong usage or configuration.");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? 0 : kBadUsage;
+  }
+  return std::nullopt;
+}
+
+/// The file that is read; empty: built-in defaults.
+std::filesystem::path config_file(const Options& options) {
+  if (!options.config_file.empty()) return options.config_file;
+  std::error_code error;
+  return std::filesystem::exists(kSystemConfig, error) ? kSystemConfig : "";
+}
+
+ServiceConfig load(const Options& options, const std::filesystem::path& file) {
+  ServiceConfig config = file.empty() ? ServiceConfig{} : load_service_config(file);
+  if (options.workers) config.workers = *options.workers;
+  if (options.threads) config.threads = *options.threads;
+  if (!options.lcm_url.empty()) config.lcm.url = options.lcm_url;
+  if (!options.gripper.empty()) {
+    // A path on the command line is relative to where the command is given.
+    const auto folder = is_path(options.gripper) ? std::filesystem::path() : file.parent_path();
+    const GripperSetting gripper = find_gripper(options.gripper, folder);
+    for (SourceConfig& source : config.sources) source.gripper = gripper;
+  }
+  return config;
+}
+
+void log_start(Log& log, const ServiceConfig& config, const std::filesystem::path& file,
+               const std::string& url) {
+  std::string sources;
+  for (const SourceConfig& source : config.sources)
+    sources += (sources.empty() ? "" : ",") + source.name + ":" + source.channel;
+  const std::string from = file.empty() ? "built-in" : file.string();
+  log.info("started", {{"version", kVersion},
+                       {"config", from},
+                       {"url", url},
+                       {"sources", sources},
+                       {"workers", config.workers},
+                       {"threads", threads_a_frame(config)}});
+  for (const std::string& warning : receive_buffer_warnings(url))
+    log.warning("receive_buffer", {{"text", warning}});
+}
+
+int serve(const ServiceConfig& config, const std::filesystem::path& file) {
+  const StopSignals signals;
+  const SystemClock clock;
+  Log log(clock);
+  const std::string url = resolve_lcm_url(config.lcm.url);
+  LcmBus bus(url);
+  Daemon daemon(config, bus, clock, log);
+  log_start(log, config, file, url);
+  int exit_code = 0;
+  std::string_view reason;
+  while (reason.empty()) {
+    if (daemon.step() == LcmBus::Wait::kClosed) {
+      log.error("lcm_closed", {{"url", url}});
+      reason = "lcm_closed";
+      exit_code = kFailed;
+    } else {
+      reason = signals.received();
+    }
+  }
+  const bool finished = daemon.stop();
+  log.info("stopped", {{"reason", reason}, {"finished", finished ? "true" : "false"}});
+  // The destructors would wait for the frame that is still in work, longer than a supervisor does.
+  if (!finished) std::_Exit(exit_code);
+  return exit_code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  if (const auto exit_code = parse(argc, argv, options)) return *exit_code;
+  try {
+    const std::filesystem::path file = config_file(options);
+    const ServiceConfig config = load(options, file);
+    const std::string name = file.empty() ? "built-in configuration" : file.string();
+    if (options.print_config) {
+      std::cout << print(config) << std::flush;
+      return std::cout ? 0 : kFailed;
+    }
+    if (options.check_config) {
+      std::cerr << name << ": ok, " << config.sources.size() << " source(s)\n";
+      return 0;
+    }
+    return serve(config, file);
+  } catch (const ConfigError& e) {
+    std::cerr << e.what() << '\n';
+    return kBadUsage;
+  } catch (const std::exception& e) {
+    std::cerr << "graspd: " << e.what() << '\n';
+    return kFailed;
+  }
+}
