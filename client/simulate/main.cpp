@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+// graspd-simulate: a simulated depth camera over cluttered scenes with known objects.
+#include <unistd.h>
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <numbers>
+#include <optional>
+
+#include "client/common/frame_publisher.hpp"
+#include "client/common/program.hpp"
+#include "client/common/stop_flag.hpp"
+#include "client/common/text.hpp"
+#include "client/simulate/simulation.hpp"
+#include "client/simulate/truth_file.hpp"
+
+namespace graspd {
+namespace {
+
+struct Options {
+  std::string lcm_url;
+  std::string channel = "GRASPD_CLOUD";
+  std::string frame_name = "camera";
+  std::string type = "cloud";
+  std::string scene = "table";
+  std::string sensor = "kinect";
+  std::string output;
+  std::string truth;
+  int width = 640;
+  double rate_hz = 15;
+  std::int64_t frames = 0;
+  double elevation_deg = 0;
+  double azimuth_deg = 0;
+  bool orbit = false;
+  double orbit_speed_deg = 10;
+  SimulationConfig simulation;
+};
+
+void add_options(CLI::App& app, Options& o) {
+  add_lcm_url(app, o.lcm_url);
+  add_version(app);
+  app.add_option("-c,--channel", o.channel, "channel to publish on")->capture_default_str();
+  app.add_option("--frame-name", o.frame_name, "name of the optical frame")->capture_default_str();
+  app.add_option("-t,--type", o.type, "message: cloud (point_cloud_t) or depth (depth_image_t)")
+      ->check(CLI::IsMember({"cloud", "depth"}))
+      ->capture_default_str();
+  app.add_option("--scene", o.scene, "what the camera sees")
+      ->check(CLI::IsMember({"table", "bin", "empty"}))
+      ->capture_default_str();
+  app.add_option("-n,--objects", o.simulation.scene.num_objects,
+                 "objects in a scene, as many as find a place")
+      ->check(CLI::Range(0, 200))
+      ->capture_default_str();
+  app.add_option("--sensor", o.sensor, "noise, steps, dropouts and edges of which sensor")
+      ->check(CLI::IsMember({"ideal", "kinect", "realsense"}))
+      ->capture_default_str();
+  app.add_option("-s,--seed", o.simulation.seed, "same seed, same frames")->capture_default_str();
+  app.add_option("-r,--rate", o.rate_hz, "frames a second; 0: as fast as it can")
+      ->check(CLI::Range(0.0, 1000.0))
+      ->capture_default_str();
+  app.add_option("--frames", o.frames, "stop after so many; 0: never (10 with --output)")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  app.add_option("--new-scene-every", o.simulation.new_scene_every, "frames until the next scene; 0: never")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  app.add_flag("--orbit", o.orbit, "the camera moves slowly around the scene");
+  app.add_option("--orbit-speed", o.orbit_speed_deg, "of --orbit [degrees a second]")->capture_default_str();
+  app.add_option("--distance", o.simulation.distance_m, "from the camera to the middle of the scene [m]")
+      ->check(CLI::Range(0.3, 3.0))
+      ->capture_default_str();
+  app.add_option("--elevation", o.elevation_deg,
+                 "of the camera above the horizon [degrees] (default: 43, over a bin 63)")
+      ->check(CLI::Range(5.0, 90.0));
+  app.add_option("--azimuth", o.azimuth_deg, "of the camera around the scene [degrees]")
+      ->capture_default_str();
+  app.add_option("--width", o.width,
+                 "of the image [pixels]; its height is 3/4 of that, its field of view the same")
+      ->check(CLI::Range(64, 1920))
+      ->capture_default_str();
+  app.add_option("--truth", o.truth,
+                 "write what is published into this file: the objects' points, as JSON lines");
+  app.add_option("-o,--output", o.output, "write labelled PCD files into this folder instead of publishing");
+}
+
+/// The same view in another resolution.
+Pinhole scaled(const Pinhole& camera, int width) {
+  const double scale = static_cast<double>(width) / camera.width;
+  return {width,
+          width * 3 / 4,
+          scale * camera.fx,
+          scale * camera.fy,
+          scale * (camera.cx + 0.5) - 0.5,
+          scale * (camera.cy + 0.5) - 0.5};
+}
+
+SimulationConfig simulation_config(const Options& o) {
+  constexpr double kDegree = std::numbers::pi / 180;
+  SimulationConfig config = o.simulation;
+  config.scene.kind = *scene_kind(o.scene);
+  config.sensor = *sensor_model(o.sensor);
+  config.camera = scaled(config.camera, o.width);
+  const double usual = config.scene.kind == SceneKind::kBin ? 63 : 43;
+  config.elevation_rad = kDegree * (o.elevation_deg > 0 ? o.elevation_deg : usual);
+  config.azimuth_rad = kDegree * o.azimuth_deg;
+  // Free running, the camera moves as if it ran at 15 Hz.
+  if (o.orbit) config.orbit_rad_per_frame = kDegree * o.orbit_speed_deg / (o.rate_hz > 0 ? o.rate_hz : 15);
+  return config;
+}
+
+int write_files(const CLI::App& app, const Options& o, Simulation& simulation) {
+  std::filesystem::create_directories(o.output);
+  const std::int64_t frames = o.frames > 0 ? o.frames : 10;
+  std::int64_t k = 0;
+  for (; k < frames && !stop_requested(); ++k) {
+    const std::filesystem::path path =
+        std::filesystem::path(o.output) / (o.frame_name + std::to_string(k) + ".pcd");
+    save_pcd(path, to_cloud(simulation.frame(k)));
+    if (isatty(STDERR_FILENO))
+      std::fprintf(stderr, "\r%lld of %lld", static_cast<long long>(k + 1), static_cast<long long>(frames));
+  }
+  if (isatty(STDERR_FILENO)) std::fputc('\n', stderr);
+  say(app, printed("%lld files in %s", static_cast<long long>(k), o.output.c_str()));
+  return kExitOk;
+}
+
+int publish(const CLI::App& app, const Options& o, Simulation& simulation) {
+  LcmBus bus(resolve_lcm_url(o.lcm_url));
+  FramePublisher publisher(bus, o.channel);
+  const MessageType type = *message_type(o.type);
+  constexpr double kDepthScale = 0.001;
+  Pacer pacer(o.rate_hz);
+  std::optional<TruthFile> truth;
+  if (!o.truth.empty()) truth.emplace(o.truth);
+  for (std::int64_t k = 0; o.frames == 0 || k < o.frames; ++k) {
+    // Drawn ahead of its time, so that it goes out on time.
+    const DepthFrame frame = simulation.frame(k);
+    if (!pacer.next()) break;
+    if (truth) truth->write(k, frame);
+    const FrameHeader header{wall_clock_us(), k, o.frame_name};
+    if (type == MessageType::kCloud) {
+      publisher.send_cloud(header, to_cloud(frame));
+    } else {
+      publisher.send_depth(header, frame.camera, frame.depth_m, kDepthScale);
+    }
+  }
+  say(app, publisher.summary());
+  return kExitOk;
+}
+
+}  // namespace
+}  // namespace graspd
+
+int main(int argc, char** argv) {
+  using namespace graspd;
+  CLI::App app("A simulated depth camera over cluttered tables and bins, published as clouds.",
+               "graspd-simulate");
+  Options options;
+  add_options(app, options);
+  return run_program(app, argc, argv, [&] {
+    Simulation simulation(simulation_config(options));
+    return options.output.empty() ? publish(app, options, simulation) : write_files(app, options, simulation);
+  });
+}
