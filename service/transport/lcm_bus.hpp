@@ -42,8 +42,9 @@ class LcmBus {
   LcmBus(const LcmBus&) = delete;
   LcmBus& operator=(const LcmBus&) = delete;
 
-  /// The regular expression is matched against whole channel names. Of queue_capacity waiting messages the
-  /// newest is dropped. Throws std::runtime_error. Not from within a handler.
+  /// The regular expression is matched against whole channel names. When queue_capacity messages wait (one
+  /// more in LCM 1.3.1; memq and tcpq have no limit), the newest is dropped. Throws std::runtime_error. Not
+  /// from within a handler.
   void subscribe(const std::string& channel_regex, Handler handler, int queue_capacity = 30);
 
   /// Waits for one message and calls its handlers; rethrows what a handler throws. A signal counts as a
