@@ -91,9 +91,9 @@ std::string comment_of(const char* doc, const Range& range) {
   text << doc;
   const bool from = std::isfinite(range.min);
   const bool to = std::isfinite(range.max);
-  if (from && to) text << "; " << range.min << " to " << range.max;
-  if (from && !to) text << "; at least " << range.min;
-  if (!from && to) text << "; at most " << range.max;
+  if (from && to) text << " (" << range.min << " to " << range.max << ")";
+  if (from && !to) text << " (at least " << range.min << ")";
+  if (!from && to) text << " (at most " << range.max << ")";
   return text.str();
 }
 

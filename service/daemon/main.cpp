@@ -75,7 +75,8 @@ std::filesystem::path config_file(const Options& options) {
 }
 
 ServiceConfig load(const Options& options, const std::filesystem::path& file) {
-  ServiceConfig config = file.empty() ? ServiceConfig{} : load_service_config(file);
+  ServiceConfig config;
+  if (!file.empty()) config = load_service_config(file);
   if (options.workers) config.workers = *options.workers;
   if (options.threads) config.threads = *options.threads;
   if (!options.lcm_url.empty()) config.lcm.url = options.lcm_url;
