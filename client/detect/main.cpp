@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+// graspd-detect: handles in cloud files, with the daemon's pipeline and configuration, without LCM.
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <thread>
+
+#include "client/common/answer_summary.hpp"
+#include "client/common/cloud_file.hpp"
+#include "client/common/cloud_list.hpp"
+#include "client/common/handle_csv.hpp"
+#include "client/common/handle_text.hpp"
+#include "client/common/program.hpp"
+#include "client/common/stop_flag.hpp"
+#include "client/common/text.hpp"
+#include "client/detect/file_detection.hpp"
+#include "service/config/service_config.hpp"
+
+namespace graspd {
+namespace {
+
+struct Options {
+  std::vector<std::string> inputs;
+  std::string config;
+  std::string source;
+  std::string gripper;
+  std::string sensor;
+  std::string format = "text";
+  int threads = 0;
+  std::size_t max_rows = 10;
+  bool empty_rows = false;
+  bool stats = false;
+  bool summary = false;
+};
+
+void add_options(CLI::App& app, Options& o) {
+  add_version(app);
+  app.add_option("files", o.inputs, "PCD or PLY files, or folders of them")->required();
+  auto* config = app.add_option("--config", o.config, "the daemon's configuration (default: its defaults)");
+  app.add_option("--source", o.source, "which of the configuration's sources (default: the first)")
+      ->needs(config);
+  app.add_option("--gripper", o.gripper,
+                 "name of an installed gripper, or a gripper file (default: the source's)");
+  app.add_option("--sensor", o.sensor,
+                 "name of an installed sensor, or a sensor file (default: the source's)");
+  app.add_option("-f,--format", o.format, "text, csv, or json (a line a file)")
+      ->check(CLI::IsMember({"text", "csv", "json"}))
+      ->capture_default_str();
+  app.add_option("--threads", o.threads, "threads to work with; 0: one a core")
+      ->check(CLI::Range(0, 256))
+      ->capture_default_str();
+  app.add_option("--rows", o.max_rows, "text: handles shown of a file")->capture_default_str();
+  app.add_flag("--empty-rows", o.empty_rows, "csv: a line with id -1 for files without handles");
+  app.add_flag("--stats", o.stats,
+               "a line a file on standard error: counts, failures by reason, stage times");
+  app.add_flag("--summary", o.summary,
+               "at the end, on standard error: files by status, latency, handles a file");
+}
+
+ServiceConfig service_config(const std::filesystem::path& file) {
+  if (file.empty()) return {};
+  return load_service_config(file);
+}
+
+/// The settings of the daemon's source.
+SourceConfig source_config(const Options& o) {
+  const std::filesystem::path file = o.config;
+  const ServiceConfig config = service_config(file);
+  SourceConfig source = config.sources.front();
+  if (!o.source.empty()) {
+    const auto named = std::find_if(config.sources.begin(), config.sources.end(),
+                                    [&](const SourceConfig& s) { return s.name == o.source; });
+    if (named == config.sources.end())
+      throw ConfigError(o.config + ": sources: none has the name " + o.source);
+    source = *named;
+  }
+  if (!o.gripper.empty()) source.gripper = find_gripper(o.gripper, std::filesystem::current_path());
+  if (!o.sensor.empty()) {
+    const Eigen::Isometry3f T_box_cloud = source.detect.workspace.T_box_cloud;
+    source.detect = load_detect_config(file, o.sensor);
+    source.detect.workspace.T_box_cloud = T_box_cloud;
+  }
+  return source;
+}
+
+void print(const Options& o, const handle_list_t& list) {
+  if (o.format == "csv") {
+    write_output(handle_csv_rows(list, o.empty_rows ? EmptyLists::kWriteRow : EmptyLists::kSkip));
+  } else if (o.format == "json") {
+    write_output(handle_list_json(list) + '\n');
+  } else {
+    write_output(handle_list_line(list) + '\n' + handle_table(list, o.max_rows) + '\n');
+  }
+}
+
+void show_progress(std::size_t done, std::size_t all) {
+  if (isatty(STDERR_FILENO) == 0 || isatty(STDOUT_FILENO) != 0) return;
+  std::fprintf(stderr, "\r%zu of %zu%s", done, all, done == all ? "\n" : "");
+}
+
+int detect(const CLI::App& app, const Options& o) {
+  const SourceConfig source = source_config(o);
+  const auto files = list_cloud_files(o.inputs);
+  const int threads =
+      o.threads > 0 ? o.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(threads));
+  tbb::task_arena arena(threads);
+  AnswerSummary summary;
+  int result = kExitOk;
+  if (o.format == "csv") write_output(handle_csv_header());
+  for (std::size_t i = 0; i < files.size() && !stop_requested(); ++i) {
+    try {
+      const PointCloud cloud = load_cloud(files[i]).cloud;
+      const auto seq = static_cast<std::int64_t>(i);
+      const handle_list_t list =
+          arena.execute([&] { return detect_in_cloud(cloud, files[i].stem().string(), seq, source); });
+      summary.add(list);
+      print(o, list);
+      if (o.stats) say_block(printable(detection_stats(list)) + '\n');
+    } catch (const CloudFileError& error) {
+      // The other files may be good.
+      say(app, error.what());
+      result = kExitFailed;
+    }
+    show_progress(i + 1, files.size());
+  }
+  if (o.summary) say_block(summary.str());
+  return result;
+}
+
+}  // namespace
+}  // namespace graspd
+
+int main(int argc, char** argv) {
+  using namespace graspd;
+  CLI::App app("Finds handles in cloud files, as the daemon would.", "graspd-detect");
+  Options options;
+  add_options(app, options);
+  return run_program(app, argc, argv, [&] { return detect(app, options); });
+}
