@@ -7,6 +7,58 @@
 
 namespace graspd {
 
+namespace {
+
+struct Block {
+  static constexpr std::size_t kSize = 32;
+  float a[kSize], f[kSize], z[kSize];
+  int inside[kSize];
+};
+
+}  // namespace
+
+/// The box, and what takes points to its coordinates.
+struct BoxQuery::Box {
+  Eigen::Vector3f origin, min, max;
+  Eigen::Matrix3f to_local;
+  Eigen::Vector3f shift;  // local = to_local * p + shift
+
+  Box(const Eigen::Vector3f& o, const Eigen::Matrix3f& rotation, const Eigen::Vector3f& lo, const Eigen::Vector3f& hi)
+      : origin(o), min(lo), max(hi), to_local(rotation.transpose()), shift(-(rotation.transpose() * o)) {}
+
+  /// Coordinates of n points in the box's frame, and 1 for each inside. Plain scalars and arrays, so that the compiler
+  /// can use vectors.
+  void transform(const float* x, const float* y, const float* z, std::size_t n, float* a, float* f, float* depth,
+                 int* inside) const {
+    const float r00 = to_local(0, 0), r01 = to_local(0, 1), r02 = to_local(0, 2), t0 = shift[0];
+    const float r10 = to_local(1, 0), r11 = to_local(1, 1), r12 = to_local(1, 2), t1 = shift[1];
+    const float r20 = to_local(2, 0), r21 = to_local(2, 1), r22 = to_local(2, 2), t2 = shift[2];
+    const float a0 = min[0], a1 = max[0], f0 = min[1], f1 = max[1], z0 = min[2], z1 = max[2];
+    for (std::size_t k = 0; k < n; ++k) {
+      a[k] = r00 * x[k] + r01 * y[k] + r02 * z[k] + t0;
+      f[k] = r10 * x[k] + r11 * y[k] + r12 * z[k] + t1;
+      depth[k] = r20 * x[k] + r21 * y[k] + r22 * z[k] + t2;
+      inside[k] = int{a[k] >= a0} & int{a[k] <= a1} & int{f[k] >= f0} & int{f[k] <= f1} & int{depth[k] >= z0} &
+                  int{depth[k] <= z1};
+    }
+  }
+
+  /// Narrows [lo, hi] to the x that a row of half thickness r around the line (y, z) can have inside the box.
+  void clip_row(float y, float z, float r, float& lo, float& hi) const {
+    for (int i = 0; i < 3; ++i) {
+      const float slope = to_local(i, 0), base = to_local(i, 1) * y + to_local(i, 2) * z + shift[i];
+      const float slack = r * (std::abs(to_local(i, 1)) + std::abs(to_local(i, 2))) + 1e-5f;
+      const float from = min[i] - slack - base, to = max[i] + slack - base;
+      if (std::abs(slope) < 1e-4f) {
+        if (from > 1e-4f * std::abs(lo) + 1e-3f || to < -1e-4f * std::abs(lo) - 1e-3f) hi = lo - 1;
+        continue;
+      }
+      lo = std::max(lo, slope > 0 ? from / slope : to / slope);
+      hi = std::min(hi, slope > 0 ? to / slope : from / slope);
+    }
+  }
+};
+
 BoxQuery::BoxQuery(const PointCloud& cloud, float cell_m) : order_(order_by_cell(cloud, cell_m)) {
   const std::size_t n = cloud.size();
   x_.resize(n);
@@ -20,55 +72,72 @@ BoxQuery::BoxQuery(const PointCloud& cloud, float cell_m) : order_(order_by_cell
   }
 }
 
+template <class Visit>
+void BoxQuery::for_each_range(const Box& box, Visit visit) const {
+  const float cell = order_.cell_m;
+  const Eigen::Vector3f center = box.origin + box.to_local.transpose() * (0.5f * (box.min + box.max));
+  const Eigen::Vector3f reach = box.to_local.transpose().cwiseAbs() * (0.5f * (box.max - box.min));
+  const Eigen::Vector3i lo = ((center - reach) / cell).array().floor().cast<int>();
+  const Eigen::Vector3i hi = ((center + reach) / cell).array().floor().cast<int>();
+  const Eigen::Vector3i first = lo.cwiseMax(order_.min_cell);
+  const int last_y = std::min<int>(hi.y(), order_.min_cell.y() + static_cast<int>(order_.layer / order_.row) - 1);
+  const int last_x = std::min<int>(hi.x(), order_.min_cell.x() + static_cast<int>(order_.row) - 1);
+  for (int cz = first.z(); cz <= hi.z(); ++cz)
+    for (int cy = first.y(); cy <= last_y; ++cy) {
+      float x0 = center.x() - reach.x(), x1 = center.x() + reach.x();
+      box.clip_row((static_cast<float>(cy) + 0.5f) * cell, (static_cast<float>(cz) + 0.5f) * cell, 0.5f * cell, x0, x1);
+      if (x0 > x1) continue;
+      const int from_x = std::max(first.x(), static_cast<int>(std::floor(x0 / cell)));
+      const int to_x = std::min(last_x, static_cast<int>(std::floor(x1 / cell)));
+      if (from_x > to_x) continue;
+      const auto begin = std::lower_bound(order_.keys.begin(), order_.keys.end(), order_.key({from_x, cy, cz}));
+      const std::int64_t last = order_.key({to_x, cy, cz});
+      auto end = begin;
+      while (end != order_.keys.end() && *end <= last) ++end;
+      if (begin == end) continue;
+      if (!visit(order_.starts[static_cast<std::size_t>(begin - order_.keys.begin())],
+                 order_.starts[static_cast<std::size_t>(end - order_.keys.begin())]))
+        return;
+    }
+}
+
 void BoxQuery::find(const Eigen::Vector3f& origin, const Eigen::Matrix3f& rotation, const Eigen::Vector3f& min,
                     const Eigen::Vector3f& max, LocalPoints& out) const {
-  const Eigen::Vector3f center = origin + rotation * (0.5f * (min + max));
-  const Eigen::Vector3f reach = rotation.cwiseAbs() * (0.5f * (max - min));
-  const Eigen::Vector3i lo = ((center - reach) / order_.cell_m).array().floor().cast<int>();
-  const Eigen::Vector3i hi = ((center + reach) / order_.cell_m).array().floor().cast<int>();
-  const Eigen::Matrix3f to_local = rotation.transpose();
-  const Eigen::Vector3f t = -(to_local * origin);
-
+  const Box box(origin, rotation, min, max);
+  Block block;
   std::size_t n = 0;
-  const auto grow = [&](std::size_t more) {
-    if (out.a.size() >= n + more) return;
-    const std::size_t size = std::max(2 * out.a.size(), n + more);
-    out.a.resize(size);
-    out.f.resize(size);
-    out.z.resize(size);
-    out.index.resize(size);
-  };
-  for (int cz = lo.z(); cz <= hi.z(); ++cz)
-    for (int cy = lo.y(); cy <= hi.y(); ++cy) {
-      const std::int64_t first = order_.key({lo.x(), cy, cz}), last = order_.key({hi.x(), cy, cz});
-      const bool in_grid = cy > order_.min_cell.y() && cz > order_.min_cell.z() &&
-                           cy - order_.min_cell.y() < order_.layer / order_.row;
-      if (!in_grid) continue;
-      // A box that reaches beyond the row must not find the cells of the rows before and after.
-      const std::int64_t row_begin = order_.key({order_.min_cell.x(), cy, cz});
-      const auto begin = std::lower_bound(order_.keys.begin(), order_.keys.end(), std::max(first, row_begin));
-      const auto end = std::upper_bound(begin, order_.keys.end(), std::min(last, row_begin + order_.row - 1));
-      if (begin >= end) continue;
-      const std::size_t from = order_.starts[static_cast<std::size_t>(begin - order_.keys.begin())];
-      const std::size_t to = order_.starts[static_cast<std::size_t>(end - order_.keys.begin())];
-      grow(to - from);
-      for (std::size_t k = from; k < to; ++k) {
-        const float a = to_local(0, 0) * x_[k] + to_local(0, 1) * y_[k] + to_local(0, 2) * z_[k] + t.x();
-        const float f = to_local(1, 0) * x_[k] + to_local(1, 1) * y_[k] + to_local(1, 2) * z_[k] + t.y();
-        const float z = to_local(2, 0) * x_[k] + to_local(2, 1) * y_[k] + to_local(2, 2) * z_[k] + t.z();
-        out.a[n] = a;
-        out.f[n] = f;
-        out.z[n] = z;
-        out.index[n] = order_.points[k];
-        const bool inside = (a >= min.x()) & (a <= max.x()) & (f >= min.y()) & (f <= max.y()) & (z >= min.z()) &
-                            (z <= max.z());
-        n += inside ? 1 : 0;
+  for_each_range(box, [&](std::size_t from, std::size_t to) {
+    if (out.a.size() < n + (to - from)) out.resize(std::max(2 * out.a.size(), n + (to - from)));
+    for (; from < to; from += Block::kSize) {
+      const std::size_t size = std::min(Block::kSize, to - from);
+      box.transform(x_.data() + from, y_.data() + from, z_.data() + from, size, block.a, block.f, block.z, block.inside);
+      for (std::size_t k = 0; k < size; ++k) {
+        out.a[n] = block.a[k];
+        out.f[n] = block.f[k];
+        out.z[n] = block.z[k];
+        out.index[n] = order_.points[from + k];
+        n += static_cast<std::size_t>(block.inside[k]);
       }
     }
-  out.a.resize(n);
-  out.f.resize(n);
-  out.z.resize(n);
-  out.index.resize(n);
+    return true;
+  });
+  out.resize(n);
+}
+
+bool BoxQuery::has_more(const Eigen::Vector3f& origin, const Eigen::Matrix3f& rotation, const Eigen::Vector3f& min,
+                        const Eigen::Vector3f& max, int limit) const {
+  const Box box(origin, rotation, min, max);
+  Block block;
+  int n = 0;
+  for_each_range(box, [&](std::size_t from, std::size_t to) {
+    for (; from < to; from += Block::kSize) {
+      const std::size_t size = std::min(Block::kSize, to - from);
+      box.transform(x_.data() + from, y_.data() + from, z_.data() + from, size, block.a, block.f, block.z, block.inside);
+      for (std::size_t k = 0; k < size; ++k) n += block.inside[k];
+    }
+    return n <= limit;
+  });
+  return n > limit;
 }
 
 }  // namespace graspd

@@ -17,6 +17,12 @@ struct LocalPoints {
   std::vector<std::uint32_t> index;  ///< into the cloud
 
   [[nodiscard]] std::size_t size() const { return a.size(); }
+  void resize(std::size_t n) {
+    a.resize(n);
+    f.resize(n);
+    z.resize(n);
+    index.resize(n);
+  }
 };
 
 class BoxQuery {
@@ -30,7 +36,16 @@ class BoxQuery {
   void find(const Eigen::Vector3f& origin, const Eigen::Matrix3f& rotation, const Eigen::Vector3f& min,
             const Eigen::Vector3f& max, LocalPoints& out) const;
 
+  /// Whether more than limit points lie in the box.
+  [[nodiscard]] bool has_more(const Eigen::Vector3f& origin, const Eigen::Matrix3f& rotation, const Eigen::Vector3f& min,
+                              const Eigen::Vector3f& max, int limit) const;
+
  private:
+  struct Box;
+  /// Calls visit(from, to) with ranges of positions that hold all points of the box; it returns false to stop.
+  template <class Visit>
+  void for_each_range(const Box& box, Visit visit) const;
+
   CellOrder order_;
   std::vector<float> x_, y_, z_;  // in the order of the cells
 };

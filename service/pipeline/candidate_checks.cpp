@@ -6,24 +6,36 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
+
+#include "service/pipeline/object_outline.hpp"
 
 namespace graspd {
 namespace {
 
-constexpr float kGridCell = 0.02f;   // of the box queries [m]
+constexpr float kGridCell = 0.01f;   // of the box queries [m]
 constexpr int kVoxelTolerance = 2;   // stray points a volume may have: counts are absolute, noise does not scale
 constexpr int kPointTolerance = 4;
+constexpr int kRounds = 2;
+constexpr int kEnoughHandles = 8;    // of an object: no further round for it
 
 using Results = std::vector<CheckResult>;
 
+/// outlines: to refuse at little cost what is much too wide; may be null.
 Results check_all(const SceneView& scene, const Gripper& gripper, const HandleCheckConfig& config,
-                  const std::vector<Candidate>& candidates) {
-  Results results(candidates.size());
+                  const std::vector<Candidate>& candidates, const std::vector<std::size_t>& which,
+                  const ObjectOutlines* outlines) {
+  Results results(which.size());
   tbb::enumerable_thread_specific<CheckBuffers> buffers;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, candidates.size(), 8), [&](const auto& range) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, which.size(), 8), [&](const auto& range) {
     CheckBuffers& own = buffers.local();
-    for (std::size_t i = range.begin(); i != range.end(); ++i)
-      results[i] = check_candidate(scene, gripper, config, candidates[i], own);
+    for (std::size_t i = range.begin(); i != range.end(); ++i) {
+      const Candidate& candidate = candidates[which[i]];
+      if (outlines && outlines->clearly_too_wide(candidate, gripper))
+        results[i].failure = Failure::kTooWide;
+      else
+        results[i] = check_candidate(scene, gripper, config, candidate, own);
+    }
   });
   return results;
 }
@@ -35,10 +47,22 @@ std::vector<std::int32_t> spread_to_points(const std::vector<std::int32_t>& of_v
   return of_point;
 }
 
+/// Off the middle the object turns between the jaws: the margin falls off over 6 cm along the major axis.
+Handle scored(const CheckResult& result, const Eigen::Vector3f& center) {
+  constexpr float kFalloff = 0.06f;
+  HandleMargins margins = result.margins;
+  const float off = result.handle.rotation.col(0).dot(center - result.handle.position) / kFalloff;
+  margins.central = std::exp(-off * off);
+  Handle handle = result.handle;
+  handle.score = score(margins);
+  return handle;
+}
+
 void count_failures(const std::vector<Candidate>& candidates, const std::vector<Failure>& failures,
-                    std::size_t num_segments, CheckedCandidates& out) {
+                    const std::vector<std::uint8_t>& tried, std::size_t num_segments, CheckedCandidates& out) {
   std::vector<Failure> farthest(num_segments, Failure::kTooFewPoints);
   for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (!tried[i]) continue;
     if (failures[i] != Failure::kNone) ++out.candidate_failures[static_cast<std::size_t>(failures[i])];
     Failure& f = farthest[static_cast<std::size_t>(candidates[i].segment)];
     f = std::max(f, failures[i]);
@@ -61,23 +85,35 @@ CheckedCandidates check_candidates(const PointCloud& cloud, const Surfaces& surf
   const SceneView points{cloud, point_query, object_of_point, surfaces.normals, &surfaces.voxel_of_point,
                          surfaces.support, depth_map, object_of_point, leaf * leaf, kPointTolerance};
 
-  const Results coarse = check_all(voxels, gripper, config.check, candidates);
-  std::vector<Failure> failures(candidates.size());
-  std::vector<Candidate> left;
-  std::vector<std::size_t> left_index;
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    failures[i] = coarse[i].failure;
-    if (coarse[i].failure != Failure::kNone) continue;
-    left.push_back(candidates[i]);
-    left_index.push_back(i);
-  }
+  const ObjectOutlines outlines(surfaces.cloud, surfaces.objects.of_point, surfaces.objects.num_objects);
   CheckedCandidates out;
-  const Results fine = check_all(points, gripper, config.check, left);
-  for (std::size_t k = 0; k < fine.size(); ++k) {
-    failures[left_index[k]] = fine[k].failure;
-    if (fine[k].failure == Failure::kNone) out.handles.push_back({fine[k].handle, left[k].object});
+  std::vector<Failure> failures(candidates.size(), Failure::kTooFewPoints);
+  std::vector<std::uint8_t> was_tried(candidates.size());
+  std::vector<int> handles_of_object(static_cast<std::size_t>(surfaces.objects.num_objects));
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<std::size_t> tried;
+    for (std::size_t i = 0; i < candidates.size(); ++i)
+      if (candidates[i].round == round &&
+          handles_of_object[static_cast<std::size_t>(candidates[i].object)] < kEnoughHandles)
+        tried.push_back(i);
+    out.num_tried += static_cast<int>(tried.size());
+    const Results coarse = check_all(voxels, gripper, config.check, candidates, tried, &outlines);
+    std::vector<std::size_t> left;
+    for (std::size_t k = 0; k < tried.size(); ++k) {
+      was_tried[tried[k]] = 1;
+      failures[tried[k]] = coarse[k].failure;
+      if (coarse[k].failure == Failure::kNone) left.push_back(tried[k]);
+    }
+    const Results fine = check_all(points, gripper, config.check, candidates, left, nullptr);
+    for (std::size_t k = 0; k < left.size(); ++k) {
+      failures[left[k]] = fine[k].failure;
+      if (fine[k].failure != Failure::kNone) continue;
+      const auto object = static_cast<std::size_t>(candidates[left[k]].object);
+      out.handles.push_back({scored(fine[k], surfaces.objects.center[object]), candidates[left[k]].object});
+      ++handles_of_object[object];
+    }
   }
-  count_failures(candidates, failures, surfaces.segments.list.size(), out);
+  count_failures(candidates, failures, was_tried, surfaces.segments.list.size(), out);
   return out;
 }
 

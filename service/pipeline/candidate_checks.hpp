@@ -10,6 +10,7 @@
 namespace graspd {
 
 struct CheckedCandidates {
+  int num_tried = 0;
   std::vector<RankedHandle> handles;   ///< in the order of the candidates
   FailureCounts candidate_failures{};  ///< by the first check that a candidate failed
   FailureCounts segment_failures{};    ///< segments without a handle, by the last check that one of its candidates reached

@@ -30,10 +30,10 @@ Detection detect_handles(const PointCloud& cloud, const Gripper& gripper, const 
   const Surfaces surfaces = find_surfaces(kept.cloud, config, done);
   detection.points_used = static_cast<int>(surfaces.cloud.size());
   detection.num_segments = static_cast<int>(surfaces.segments.list.size());
-  std::vector<Candidate> candidates = search_handles(surfaces.search_input(), gripper, config.search);
-  detection.num_candidates = static_cast<int>(candidates.size());
+  const std::vector<Candidate> candidates = search_handles(surfaces.search_input(), gripper, config.search);
   done("handle_search");
   const CheckedCandidates checked = check_candidates(kept.cloud, surfaces, candidates, gripper, config);
+  detection.num_candidates = checked.num_tried;
   detection.candidate_failures = checked.candidate_failures;
   detection.segment_failures = checked.segment_failures;
   done("handle_check");

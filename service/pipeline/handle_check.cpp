@@ -12,6 +12,8 @@
 namespace graspd {
 namespace {
 
+constexpr int kMinOwnPoints = 12;
+constexpr float kAmpleRoom = 0.25f;    // share of the aperture left free from which on more does not matter
 constexpr float kHideMargin = 0.008f;  // a place is hidden when something is nearer to the sensor by this much [m]
 
 float radians(float degrees) { return degrees * std::numbers::pi_v<float> / 180; }
@@ -20,8 +22,14 @@ float radians(float degrees) { return degrees * std::numbers::pi_v<float> / 180;
 class Check {
  public:
   Check(const SceneView& scene, const Gripper& gripper, const HandleCheckConfig& config, const Candidate& candidate,
-        const LocalPoints& local)
-      : scene_(scene), gripper_(gripper), config_(config), candidate_(candidate), local_(local) {}
+        CheckBuffers& buffers)
+      : scene_(scene),
+        gripper_(gripper),
+        config_(config),
+        candidate_(candidate),
+        buffers_(buffers),
+        local_(buffers.local),
+        between_(buffers.between) {}
 
   CheckResult run(const PatchFit& fit);
 
@@ -29,11 +37,11 @@ class Check {
   [[nodiscard]] float half_opening() const {
     return 0.5f * std::min(gripper_.aperture_m, handle_.width_m + 2 * config_.clearance_m);
   }
-  [[nodiscard]] bool is_own(std::size_t k) const { return scene_.object[local_.index[k]] == candidate_.object; }
+  [[nodiscard]] bool is_own(std::size_t k) const { return buffers_.own[k] != 0; }
   [[nodiscard]] Failure check_volumes();
   [[nodiscard]] Failure check_support() const;
-  [[nodiscard]] Failure check_silhouettes() const;
-  [[nodiscard]] Failure check_walls() const;
+  [[nodiscard]] Failure check_silhouettes();
+  [[nodiscard]] Failure check_walls();
   [[nodiscard]] Failure check_contacts();
   [[nodiscard]] Failure check_unseen();
   void collect_between();
@@ -46,39 +54,38 @@ class Check {
   const Gripper& gripper_;
   const HandleCheckConfig& config_;
   const Candidate& candidate_;
-  const LocalPoints& local_;
+  CheckBuffers& buffers_;
+  LocalPoints& local_;  // relative to the handle's position
+  std::vector<std::uint32_t>& between_;
   Handle handle_;
-  float shift_f_ = 0, shift_z_ = 0;  // from the candidate's position, where local_ is relative to, to the handle's
-  std::vector<std::uint32_t> between_;
+  HandleMargins margins_;
   float end_[2] = {0, 0};  // of the object's points between the jaws, along f from the handle's position
   float top_ = 0;          // their smallest depth
 };
 
 Failure Check::check_volumes() {
   const Gripper& g = gripper_;
-  const float half = half_opening(), hand = 0.5f * g.aperture_m;
-  int own = 0, other = 0, fingers = 0, palm = 0, way = 0;
+  const float half = half_opening(), half_hand = 0.5f * g.aperture_m + g.finger_width_m, half_e = 0.5f * g.finger_thickness_m;
   const float palm_top = g.grasp_depth_m - g.finger_length_m, hand_top = palm_top - config_.palm_depth_m;
+  int own = 0, other = 0, fingers = 0;
   for (std::size_t k = 0; k < local_.size(); ++k) {
-    const float f = std::abs(local_.f[k] - shift_f_), z = local_.z[k] - shift_z_;
-    if (z > g.grasp_depth_m) continue;
-    if (z >= palm_top) {
-      if (f <= half)
-        (is_own(k) ? own : other) += 1;
-      else
-        fingers += f <= half + g.finger_width_m ? 1 : 0;
-    } else if (z >= hand_top) {
-      palm += f <= hand + g.finger_width_m ? 1 : 0;
-    } else {
-      way += f <= hand + g.finger_width_m && z >= hand_top - config_.way_m ? 1 : 0;
-    }
+    const float f = std::abs(local_.f[k]), z = local_.z[k];
+    if (z > g.grasp_depth_m || z < palm_top) continue;
+    if (f <= half)
+      (is_own(k) ? own : other) += 1;
+    else
+      fingers += f <= half + g.finger_width_m ? 1 : 0;
   }
   handle_.num_points = own;
-  if (own < 12) return Failure::kTooFewPoints;
+  if (own < kMinOwnPoints) return Failure::kTooFewPoints;
   if (static_cast<float>(own) < config_.min_own_share * static_cast<float>(own + other)) return Failure::kNoGap;
   if (fingers > scene_.tolerance) return Failure::kFingers;
-  if (palm > scene_.tolerance) return Failure::kPalm;
-  return way > scene_.tolerance ? Failure::kWay : Failure::kNone;
+  const auto blocked = [&](float z0, float z1) {
+    return scene_.query.has_more(handle_.position, handle_.rotation, {-half_e, -half_hand, z0}, {half_e, half_hand, z1},
+                                 scene_.tolerance);
+  };
+  if (blocked(hand_top, palm_top)) return Failure::kPalm;
+  return blocked(hand_top - config_.way_m, hand_top) ? Failure::kWay : Failure::kNone;
 }
 
 Failure Check::check_support() const {
@@ -101,10 +108,12 @@ Failure Check::check_support() const {
 
 void Check::collect_between() {
   between_.clear();
-  std::vector<float> f, z;
+  std::vector<float>&f = buffers_.widths, &z = buffers_.depths;
+  f.clear();
+  z.clear();
   const float half = half_opening();
   for (std::size_t k = 0; k < local_.size(); ++k) {
-    const float kf = local_.f[k] - shift_f_, kz = local_.z[k] - shift_z_;
+    const float kf = local_.f[k], kz = local_.z[k];
     if (std::abs(kf) > half || kz > gripper_.grasp_depth_m || kz < gripper_.grasp_depth_m - gripper_.finger_length_m)
       continue;
     if (!is_own(k)) continue;
@@ -120,7 +129,7 @@ void Check::collect_between() {
   top_ = z[skip];
 }
 
-Failure Check::check_silhouettes() const {
+Failure Check::check_silhouettes() {
   constexpr int kSlabs = 5;
   std::array<float, kSlabs> low, high;
   low.fill(1);
@@ -145,18 +154,20 @@ Failure Check::check_silhouettes() const {
       sxy += x * y;
     }
     if (n < 4) return Failure::kSilhouettes;
-    if (std::abs(n * sxy - sx * sy) > limit * (n * sxx - sx * sx)) return Failure::kSilhouettes;
+    const float slope = std::abs(n * sxy - sx * sy) / (n * sxx - sx * sx);
+    if (slope > limit) return Failure::kSilhouettes;
+    margins_.silhouettes = std::min(margins_.silhouettes, 1 - slope / limit);
   }
   return Failure::kNone;
 }
 
-Failure Check::check_walls() const {
+Failure Check::check_walls() {
   constexpr float kAbove = 0.010f, kBelow = 0.005f, kBeside = 0.03f;
   const float half = half_opening(), l = gripper_.grasp_depth_m;
   float near_low = 1, near_high = -1, far_low = 1, far_high = -1;
   for (std::size_t k = 0; k < local_.size(); ++k) {
     if (!is_own(k)) continue;
-    const float f = local_.f[k] - shift_f_, z = local_.z[k] - shift_z_;
+    const float f = local_.f[k], z = local_.z[k];
     if (std::abs(f) > half + kBeside || z < l - gripper_.finger_length_m || z > l + kBelow) continue;
     far_low = std::min(far_low, f);
     far_high = std::max(far_high, f);
@@ -166,7 +177,9 @@ Failure Check::check_walls() const {
   }
   if (near_high <= near_low) return Failure::kWalls;
   const float limit = (kAbove + kBelow) * std::tan(radians(config_.max_wall_angle_deg));
-  return far_high - near_high > limit || near_low - far_low > limit ? Failure::kWalls : Failure::kNone;
+  const float widening = std::max(far_high - near_high, near_low - far_low);
+  margins_.walls = 1 - widening / limit;
+  return widening > limit ? Failure::kWalls : Failure::kNone;
 }
 
 float Check::hidden_share(float f0, float f1, float z0, float z1, bool by_others) const {
@@ -203,7 +216,7 @@ void Check::set_width_from(const Contact& low, const Contact& high) {
   const float center = 0.5f * (low.reach_m + high.reach_m);
   handle_.width_m = high.reach_m - low.reach_m;
   handle_.position += handle_.rotation.col(1) * center;
-  shift_f_ += center;
+  for (float& f : local_.f) f -= center;
   end_[0] -= center;
   end_[1] -= center;
 }
@@ -211,21 +224,16 @@ void Check::set_width_from(const Contact& low, const Contact& high) {
 Failure Check::check_contacts() {
   if (seen_area() < config_.min_contact_area_m2 || gripper_.grasp_depth_m - top_ < config_.min_grip_depth_m)
     return Failure::kContact;
-  LocalPoints moved;
-  moved.f.resize(local_.size());
-  moved.z.resize(local_.size());
-  moved.index = local_.index;
-  for (std::size_t k = 0; k < local_.size(); ++k) {
-    moved.f[k] = local_.f[k] - shift_f_;
-    moved.z[k] = local_.z[k] - shift_z_;
-  }
-  const ContactInput input{scene_, moved, between_, handle_.position, handle_.rotation, top_, gripper_.grasp_depth_m,
+  const ContactInput input{scene_, local_, between_, handle_.position, handle_.rotation, top_, gripper_.grasp_depth_m,
                            end_[1] - end_[0], std::cos(radians(config_.max_facing_angle_deg)), gripper_.finger_width_m,
                            gripper_.finger_thickness_m};
   const Contact low = find_contact(input, -1, end_[0], finger_hidden_share(0, false));
   const Contact high = find_contact(input, 1, end_[1], finger_hidden_share(1, false));
   if (low.kind == ContactKind::kNone || high.kind == ContactKind::kNone) return Failure::kContact;
+  margins_.contact = {low.kind, high.kind};
   set_width_from(low, high);
+  margins_.width = (gripper_.aperture_m - handle_.width_m) / (kAmpleRoom * gripper_.aperture_m);
+  margins_.grip_depth = (gripper_.grasp_depth_m - top_) / gripper_.grasp_depth_m;
   return handle_.width_m > gripper_.aperture_m - 0.004f ? Failure::kTooWide : Failure::kNone;
 }
 
@@ -238,6 +246,7 @@ Failure Check::check_unseen() {
     if (finger_hidden_share(side, true) > 0.5f * config_.max_hidden_share) return Failure::kUnseen;
   }
   if (std::min(hidden[0], hidden[1]) > config_.max_hidden_share) return Failure::kUnseen;
+  margins_.seen = 1 - std::max(hidden[0], hidden[1]);
   const float hand = 0.5f * g.aperture_m + g.finger_width_m, palm_top = g.grasp_depth_m - g.finger_length_m;
   const float palm = hidden_share(-hand, hand, palm_top - config_.palm_depth_m, palm_top, false);
   return palm > config_.max_hidden_share ? Failure::kUnseen : Failure::kNone;
@@ -249,8 +258,6 @@ CheckResult Check::run(const PatchFit& fit) {
   handle_.position = candidate_.position + candidate_.rotation * Eigen::Vector3f(0, fit.center_m, fit.top_m);
   handle_.width_m = fit.width_m;
   handle_.gap_m = fit.gap_m;
-  shift_f_ = fit.center_m;
-  shift_z_ = fit.top_m;
   CheckResult result;
   const auto passes = [&result](Failure failure) { return (result.failure = failure) == Failure::kNone; };
   if (!passes(check_volumes()) || !passes(check_support())) return result;
@@ -261,6 +268,7 @@ CheckResult Check::run(const PatchFit& fit) {
   collect_between();
   if (!passes(check_unseen())) return result;
   result.handle = handle_;
+  result.margins = margins_;
   return result;
 }
 
@@ -276,9 +284,9 @@ std::string_view name(Failure failure) {
 CheckResult check_candidate(const SceneView& scene, const Gripper& gripper, const HandleCheckConfig& config,
                             const Candidate& candidate, CheckBuffers& buffers) {
   PatchFit fit;
-  if (const Failure failure = fit_patch(scene, gripper, config, candidate, buffers.local, fit); failure != Failure::kNone)
-    return {failure, {}};
-  return Check(scene, gripper, config, candidate, buffers.local).run(fit);
+  if (const Failure failure = fit_patch(scene, gripper, config, candidate, buffers, fit); failure != Failure::kNone)
+    return {failure, {}, {}};
+  return Check(scene, gripper, config, candidate, buffers).run(fit);
 }
 
 }  // namespace graspd

@@ -6,9 +6,11 @@
 #include <array>
 #include <cstdint>
 #include <string_view>
+#include <vector>
 
 #include "service/pipeline/gripper.hpp"
 #include "service/pipeline/handle.hpp"
+#include "service/pipeline/handle_score.hpp"
 #include "service/pipeline/scene_view.hpp"
 
 namespace graspd {
@@ -71,16 +73,22 @@ struct Candidate {
   Eigen::Matrix3f rotation = Eigen::Matrix3f::Identity();  ///< columns: major axis, closing axis, approach
   std::int32_t segment = -1;
   std::int32_t object = -1;
+  int round = 0;  ///< 0: what the surface suggests first; 1: tried where that found too little
 };
 
 struct CheckResult {
   Failure failure = Failure::kTooFewPoints;
-  Handle handle;  ///< valid when failure is kNone; position and width fitted to the object
+  Handle handle;          ///< valid when failure is kNone; position and width fitted to the object
+  HandleMargins margins;  ///< the same
 };
 
 /// Working memory of a check, kept from call to call.
 struct CheckBuffers {
-  LocalPoints local;
+  LocalPoints local;              ///< around the candidate, relative to its fitted position
+  std::vector<std::uint8_t> own;  ///< for each of them whether it is the candidate's object's
+  std::vector<std::uint32_t> between;
+  std::vector<int> own_profile, all_profile;
+  std::vector<float> depths, widths;
 };
 
 /// Fits position and width to what is between the jaws, then checks. A pure function of its arguments (buffers aside).

@@ -133,9 +133,13 @@ class SeedSearch {
       const std::int32_t s = in_.segments.of_point[seed];
       if (s < 0) continue;
       const Eigen::Vector3f p = in_.cloud.point(seed);
-      for (const Eigen::Vector3f& outward : approaches(points, seed))
-        for (const Eigen::Vector3f& axis : closing_axes(static_cast<std::size_t>(s), outward))
-          out.push_back({p, gripper_axes(outward, axis), s, object});
+      const Directions outward = approaches(points, seed);
+      for (std::size_t o = 0; o < outward.size(); ++o) {
+        const Directions axes = closing_axes(static_cast<std::size_t>(s), outward[o]);
+        // The surface's own normal and axes first (paper, section 5), the support's normal next to them.
+        for (std::size_t a = 0; a < axes.size(); ++a)
+          out.push_back({p, gripper_axes(outward[o], axes[a]), s, object, o < 2 && a < 2 ? 0 : 1});
+      }
     }
   }
 

@@ -54,6 +54,20 @@ std::vector<std::int32_t> filled(const Neighborhoods& neighborhoods, const std::
   return result;
 }
 
+std::vector<Eigen::Vector3f> centers(const PointCloud& cloud, const Objects& objects) {
+  std::vector<Eigen::Vector3d> sum(static_cast<std::size_t>(objects.num_objects), Eigen::Vector3d::Zero());
+  std::vector<double> count(sum.size());
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (objects.of_point[i] < 0) continue;
+    const auto object = static_cast<std::size_t>(objects.of_point[i]);
+    sum[object] += cloud.point(i).cast<double>();
+    ++count[object];
+  }
+  std::vector<Eigen::Vector3f> result;
+  for (std::size_t k = 0; k < sum.size(); ++k) result.emplace_back((sum[k] / count[k]).cast<float>());
+  return result;
+}
+
 }  // namespace
 
 Objects group_segments(const PointCloud& cloud, const Normals& normals, const Neighborhoods& neighborhoods,
@@ -77,6 +91,7 @@ Objects group_segments(const PointCloud& cloud, const Normals& normals, const Ne
     if (s >= 0) objects.of_point[i] = objects.of_segment[static_cast<std::size_t>(s)];
   }
   for (int round = 0; round < 2; ++round) objects.of_point = filled(neighborhoods, is_support, objects.of_point);
+  objects.center = centers(cloud, objects);
   return objects;
 }
 

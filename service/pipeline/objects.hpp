@@ -26,6 +26,7 @@ struct Objects {
   int num_objects = 0;
   std::vector<std::int32_t> of_segment;  ///< object of each segment
   std::vector<std::int32_t> of_point;    ///< object of each point; -1: none
+  std::vector<Eigen::Vector3f> center;   ///< mean of each object's points
 };
 
 /// A pair of neighbours i, j of two segments is convex when (n_i - n_j) . (p_i - p_j) > 0. Points in no segment take the

@@ -14,15 +14,16 @@ constexpr float kTopWindow = 0.012f; // around the candidate's position, where t
 
 /// Occupancy along the closing axis.
 struct Profile {
-  float first_m;                ///< of bin 0
-  std::vector<int> own, all;
+  float first_m;  ///< of bin 0
+  std::vector<int>&own, &all;
 
-  Profile(float half_length) : first_m(-half_length) {
+  Profile(float half_length, CheckBuffers& buffers)
+      : first_m(-half_length), own(buffers.own_profile), all(buffers.all_profile) {
     const auto bins = static_cast<std::size_t>(2 * half_length / kBin) + 1;
-    own.resize(bins);
-    all.resize(bins);
+    own.assign(bins, 0);
+    all.assign(bins, 0);
   }
-  [[nodiscard]] int bin(float f) const { return static_cast<int>((f - first_m) / kBin); }
+  [[nodiscard]] int bin(float f) const { return static_cast<int>(std::floor((f - first_m) / kBin)); }
   [[nodiscard]] float at(int bin) const { return first_m + kBin * static_cast<float>(bin); }
   [[nodiscard]] int size() const { return static_cast<int>(all.size()); }
 };
@@ -43,11 +44,13 @@ int walk(const Profile& profile, int from, int step, int min_gap, int& next) {
   return last;
 }
 
-/// Depth that only a few of the object's points within the window are above.
-bool find_top(const LocalPoints& local, const std::vector<std::uint8_t>& own, float f_min, float f_max, float& top_m) {
-  std::vector<float> z;
+/// Depth that only a few of the object's points between f_min and f_max are above.
+bool find_top(CheckBuffers& buffers, float f_min, float f_max, float& top_m) {
+  const LocalPoints& local = buffers.local;
+  std::vector<float>& z = buffers.depths;
+  z.clear();
   for (std::size_t k = 0; k < local.size(); ++k)
-    if (own[k] && local.f[k] >= f_min && local.f[k] <= f_max) z.push_back(local.z[k]);
+    if (buffers.own[k] && local.f[k] >= f_min && local.f[k] <= f_max) z.push_back(local.z[k]);
   if (z.size() < 4) return false;
   const std::size_t skip = std::min(z.size() / 4, std::max<std::size_t>(1, z.size() / 50));
   std::nth_element(z.begin(), z.begin() + static_cast<std::ptrdiff_t>(skip), z.end());
@@ -57,7 +60,8 @@ bool find_top(const LocalPoints& local, const std::vector<std::uint8_t>& own, fl
 
 /// How much less deep the fingertips must go so that they stay above the support and clear of what is below.
 float raise_for_obstacles(const SceneView& scene, const Gripper& g, const HandleCheckConfig& config,
-                          const Candidate& candidate, const LocalPoints& local, const PatchFit& fit) {
+                          const Candidate& candidate, CheckBuffers& buffers, const PatchFit& fit) {
+  const LocalPoints& local = buffers.local;
   const float half = 0.5f * std::min(g.aperture_m, fit.width_m + 2 * config.clearance_m);
   float raise = 0;
   if (scene.support) {
@@ -71,7 +75,8 @@ float raise_for_obstacles(const SceneView& scene, const Gripper& g, const Handle
           raise = std::max(raise, (config.support_clearance_m + 0.002f - height) / steepness);
         }
   }
-  std::vector<float> hits;  // depths above the fingertips' at which something is in a finger's way
+  std::vector<float>& hits = buffers.depths;  // above the fingertips' depth, where something is in a finger's way
+  hits.clear();
   for (std::size_t k = 0; k < local.size(); ++k) {
     const float f = std::abs(local.f[k] - fit.center_m), z = local.z[k] - fit.top_m;
     if (f > half && f <= half + g.finger_width_m && z <= g.grasp_depth_m && z >= g.grasp_depth_m - g.finger_length_m)
@@ -86,10 +91,16 @@ float raise_for_obstacles(const SceneView& scene, const Gripper& g, const Handle
   return raise;
 }
 
+/// How far the profile goes: so that a patch as wide as the aperture that begins in the middle shows its gap, and among
+/// all points, where handles are made, the free space beside it.
+float profile_reach(const SceneView& scene, const Gripper& g) {
+  return (scene.voxel ? 1.5f : 1.0f) * g.aperture_m + g.min_gap_m;
+}
+
 /// The patch around position f0: between the nearest gaps on both sides, at depths down to l below top.
-Failure find_patch(const SceneView& scene, const Gripper& g, const Candidate& candidate, const LocalPoints& local,
-                   float f0, PatchFit& fit) {
-  Profile profile(0.5f * g.aperture_m + g.aperture_m + g.min_gap_m);
+Failure find_patch(const SceneView& scene, const Gripper& g, CheckBuffers& buffers, float f0, PatchFit& fit) {
+  const LocalPoints& local = buffers.local;
+  Profile profile(profile_reach(scene, g), buffers);
   for (std::size_t k = 0; k < local.size(); ++k) {
     const float z = local.z[k] - fit.top_m;
     if (z > g.grasp_depth_m || z < g.grasp_depth_m - g.finger_length_m) continue;
@@ -97,7 +108,7 @@ Failure find_patch(const SceneView& scene, const Gripper& g, const Candidate& ca
     // Where the support is in the way, the fingers go less deep (below): it does not widen the patch.
     if (b < 0 || b >= profile.size() || scene.is_support(local.index[k])) continue;
     ++profile.all[static_cast<std::size_t>(b)];
-    profile.own[static_cast<std::size_t>(b)] += scene.object[local.index[k]] == candidate.object ? 1 : 0;
+    profile.own[static_cast<std::size_t>(b)] += buffers.own[k];
   }
   int start = profile.bin(f0);
   for (int d = 0; d < static_cast<int>(0.5f * g.aperture_m / kBin); ++d) {
@@ -121,28 +132,38 @@ Failure find_patch(const SceneView& scene, const Gripper& g, const Candidate& ca
   return other > 3 ? Failure::kNoGap : Failure::kTooWide;
 }
 
+void shift(LocalPoints& local, float f, float z) {
+  for (float& v : local.f) v -= f;
+  for (float& v : local.z) v -= z;
+}
+
 }  // namespace
 
 Failure fit_patch(const SceneView& scene, const Gripper& gripper, const HandleCheckConfig& config,
-                  const Candidate& candidate, LocalPoints& local, PatchFit& fit) {
+                  const Candidate& candidate, CheckBuffers& buffers, PatchFit& fit) {
   const Gripper& g = gripper;
-  const float reach = 1.5f * g.aperture_m + g.min_gap_m;
-  const float back = g.finger_length_m - g.grasp_depth_m + config.palm_depth_m + config.way_m + 0.03f;
-  scene.query.find(candidate.position, candidate.rotation, {-0.5f * g.finger_thickness_m, -reach, -back},
-                   {0.5f * g.finger_thickness_m, reach, g.grasp_depth_m + 0.03f}, local);
-  std::vector<std::uint8_t> own(local.size());
-  for (std::size_t k = 0; k < local.size(); ++k) own[k] = scene.object[local.index[k]] == candidate.object;
-
-  if (!find_top(local, own, -kTopWindow, kTopWindow, fit.top_m)) return Failure::kTooFewPoints;
-  if (const Failure failure = find_patch(scene, g, candidate, local, 0, fit); failure != Failure::kNone) return failure;
+  const float reach = profile_reach(scene, g);
+  // As far up as the fingers reach when they go in the least deep.
+  const float above = g.finger_length_m - config.min_grip_depth_m + kTopWindow;
+  const auto gather = [&](float z) {
+    scene.query.find(candidate.position, candidate.rotation, {-0.5f * g.finger_thickness_m, -reach, z - above},
+                     {0.5f * g.finger_thickness_m, reach, z + g.grasp_depth_m + 2 * kTopWindow}, buffers.local);
+    buffers.own.resize(buffers.local.size());
+    for (std::size_t k = 0; k < buffers.local.size(); ++k)
+      buffers.own[k] = scene.object[buffers.local.index[k]] == candidate.object ? 1 : 0;
+  };
+  gather(0);
+  if (!find_top(buffers, -kTopWindow, kTopWindow, fit.top_m)) return Failure::kTooFewPoints;
+  if (const Failure failure = find_patch(scene, g, buffers, 0, fit); failure != Failure::kNone) return failure;
   // The top of the whole patch may be higher than where the search began; then the depths below it are others.
-  if (!find_top(local, own, fit.center_m - 0.5f * fit.width_m, fit.center_m + 0.5f * fit.width_m, fit.top_m))
-    return Failure::kTooFewPoints;
-  if (const Failure failure = find_patch(scene, g, candidate, local, fit.center_m, fit); failure != Failure::kNone)
-    return failure;
-  const float raise = raise_for_obstacles(scene, g, config, candidate, local, fit);
+  const float low = fit.center_m - 0.5f * fit.width_m, high = low + fit.width_m;
+  if (!find_top(buffers, low, high, fit.top_m)) return Failure::kTooFewPoints;
+  if (fit.top_m < -kTopWindow) gather(fit.top_m);
+  if (const Failure failure = find_patch(scene, g, buffers, fit.center_m, fit); failure != Failure::kNone) return failure;
+  const float raise = raise_for_obstacles(scene, g, config, candidate, buffers, fit);
   if (raise > g.grasp_depth_m - config.min_grip_depth_m) return Failure::kFingers;
   fit.top_m -= raise;
+  shift(buffers.local, fit.center_m, fit.top_m);
   return Failure::kNone;
 }
 

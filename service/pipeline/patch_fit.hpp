@@ -15,9 +15,9 @@ struct PatchFit {
   std::array<float, 2> gap_m{};     ///< free beside it on both sides, at most d
 };
 
-/// Gathers the points around the candidate into local (relative to its position) and fits. The fingertips go l below the
-/// patch's top, or less deep where the support or something else is in their way.
+/// Gathers the points around the candidate into buffers (relative to the fitted position) and fits. The fingertips go l
+/// below the patch's top, or less deep where the support or something else is in their way.
 [[nodiscard]] Failure fit_patch(const SceneView& scene, const Gripper& gripper, const HandleCheckConfig& config,
-                                const Candidate& candidate, LocalPoints& local, PatchFit& fit);
+                                const Candidate& candidate, CheckBuffers& buffers, PatchFit& fit);
 
 }  // namespace graspd
