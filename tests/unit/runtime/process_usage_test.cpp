@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/runtime/process_usage.hpp"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstddef>
+#include <vector>
+
+#include "tests/unit/runtime/manual_clock.hpp"
+
+namespace graspd {
+namespace {
+
+using namespace std::chrono_literals;
+
+TEST(ProcessUsage, ReadsTheKernelsLines) {
+  const char* text = "Name:\tgraspd\nVmPeak:\t  999 kB\nVmHWM:\t    2048 kB\nVmRSS:\t    1024 kB\n";
+  EXPECT_EQ(status_bytes(text, "VmRSS"), 1024 * 1024);
+  EXPECT_EQ(status_bytes(text, "VmHWM"), 2048 * 1024);
+  EXPECT_EQ(status_bytes(text, "VmSwap"), 0);
+  EXPECT_EQ(status_bytes("", "VmRSS"), 0);
+}
+
+TEST(ProcessUsage, SeesMemoryThatIsUsed) {
+  ManualClock clock;
+  ProcessUsageMeter meter;
+  const ProcessUsage before = meter.measure(clock.now());
+  EXPECT_GT(before.rss_bytes, 0);
+  EXPECT_GE(before.peak_rss_bytes, before.rss_bytes);
+  EXPECT_EQ(before.cpu, 0);
+  constexpr std::size_t kBytes = std::size_t{256} << 20;
+  const std::vector<char> block(kBytes, 1);
+  clock.advance(1s);
+  const ProcessUsage after = meter.measure(clock.now());
+  EXPECT_GE(after.peak_rss_bytes, static_cast<std::int64_t>(kBytes));
+  EXPECT_EQ(block[kBytes / 2], 1);
+  EXPECT_GT(after.cpu, 0);
+}
+
+}  // namespace
+}  // namespace graspd
