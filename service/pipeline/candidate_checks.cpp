@@ -58,17 +58,28 @@ Handle scored(const CheckResult& result, const Eigen::Vector3f& center) {
   return handle;
 }
 
-void count_failures(const std::vector<Candidate>& candidates, const std::vector<Failure>& failures,
-                    const std::vector<std::uint8_t>& tried, std::size_t num_segments, CheckedCandidates& out) {
-  std::vector<Failure> farthest(num_segments, Failure::kTooFewPoints);
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    if (!tried[i]) continue;
-    if (failures[i] != Failure::kNone) ++out.candidate_failures[static_cast<std::size_t>(failures[i])];
-    Failure& f = farthest[static_cast<std::size_t>(candidates[i].segment)];
-    f = std::max(f, failures[i]);
+std::vector<SegmentReport> start_reports(const Surfaces& surfaces) {
+  std::vector<SegmentReport> reports;
+  for (std::size_t s = 0; s < surfaces.segments.list.size(); ++s) {
+    const Segment& segment = surfaces.segments.list[s];
+    SegmentReport& report = reports.emplace_back();
+    report.centroid = segment.centroid;
+    report.num_points = static_cast<int>(segment.points.size());
+    report.object = surfaces.objects.of_segment[s];
   }
-  for (const Failure f : farthest)
-    if (f != Failure::kNone) ++out.segment_failures[static_cast<std::size_t>(f)];
+  return reports;
+}
+
+void count(const Candidate& candidate, Failure failure, CheckedCandidates& out) {
+  ++out.num_tried;
+  SegmentReport& report = out.segments[static_cast<std::size_t>(candidate.segment)];
+  ++report.num_candidates;
+  if (failure == Failure::kNone) {
+    ++report.num_handles;
+    return;
+  }
+  ++report.failures[static_cast<std::size_t>(failure)];
+  ++out.failures[static_cast<std::size_t>(failure)];
 }
 
 }  // namespace
@@ -87,33 +98,31 @@ CheckedCandidates check_candidates(const PointCloud& cloud, const Surfaces& surf
 
   const ObjectOutlines outlines(surfaces.cloud, surfaces.objects.of_point, surfaces.objects.num_objects);
   CheckedCandidates out;
-  std::vector<Failure> failures(candidates.size(), Failure::kTooFewPoints);
-  std::vector<std::uint8_t> was_tried(candidates.size());
+  out.segments = start_reports(surfaces);
   std::vector<int> handles_of_object(static_cast<std::size_t>(surfaces.objects.num_objects));
   for (int round = 0; round < kRounds; ++round) {
-    std::vector<std::size_t> tried;
+    std::vector<std::size_t> tried, left;
     for (std::size_t i = 0; i < candidates.size(); ++i)
       if (candidates[i].round == round &&
           handles_of_object[static_cast<std::size_t>(candidates[i].object)] < kEnoughHandles)
         tried.push_back(i);
-    out.num_tried += static_cast<int>(tried.size());
     const Results coarse = check_all(voxels, gripper, config.check, candidates, tried, &outlines);
-    std::vector<std::size_t> left;
     for (std::size_t k = 0; k < tried.size(); ++k) {
-      was_tried[tried[k]] = 1;
-      failures[tried[k]] = coarse[k].failure;
-      if (coarse[k].failure == Failure::kNone) left.push_back(tried[k]);
+      if (coarse[k].failure == Failure::kNone)
+        left.push_back(tried[k]);
+      else
+        count(candidates[tried[k]], coarse[k].failure, out);
     }
     const Results fine = check_all(points, gripper, config.check, candidates, left, nullptr);
     for (std::size_t k = 0; k < left.size(); ++k) {
-      failures[left[k]] = fine[k].failure;
+      const Candidate& candidate = candidates[left[k]];
+      count(candidate, fine[k].failure, out);
       if (fine[k].failure != Failure::kNone) continue;
-      const auto object = static_cast<std::size_t>(candidates[left[k]].object);
-      out.handles.push_back({scored(fine[k], surfaces.objects.center[object]), candidates[left[k]].object});
+      const auto object = static_cast<std::size_t>(candidate.object);
+      out.handles.push_back({scored(fine[k], surfaces.objects.center[object]), candidate.object});
       ++handles_of_object[object];
     }
   }
-  count_failures(candidates, failures, was_tried, surfaces.segments.list.size(), out);
   return out;
 }
 

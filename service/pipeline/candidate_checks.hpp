@@ -5,15 +5,16 @@
 #include <vector>
 
 #include "service/pipeline/detect_config.hpp"
+#include "service/pipeline/segment_report.hpp"
 #include "service/pipeline/surfaces.hpp"
 
 namespace graspd {
 
 struct CheckedCandidates {
+  std::vector<RankedHandle> handles;  ///< in the order of the candidates within each round
+  std::vector<SegmentReport> segments;
   int num_tried = 0;
-  std::vector<RankedHandle> handles;   ///< in the order of the candidates
-  FailureCounts candidate_failures{};  ///< by the first check that a candidate failed
-  FailureCounts segment_failures{};    ///< segments without a handle, by the last check that one of its candidates reached
+  FailureCounts failures{};  ///< of all candidates tried
 };
 
 /// cloud: every point of the workspace, that the surfaces were found in.

@@ -14,6 +14,13 @@ std::optional<ConfigProblem> DetectConfig::validate() const {
   return std::nullopt;
 }
 
+FailureCounts Detection::segment_failures() const {
+  FailureCounts counts{};
+  for (const SegmentReport& segment : segments)
+    if (segment.num_handles == 0) ++counts[static_cast<std::size_t>(segment.reason())];
+  return counts;
+}
+
 Detection detect_handles(const PointCloud& cloud, const Gripper& gripper, const DetectConfig& config,
                          const StageObserver& observer) {
   const auto done = [&observer](std::string_view stage) {
@@ -29,13 +36,12 @@ Detection detect_handles(const PointCloud& cloud, const Gripper& gripper, const 
 
   const Surfaces surfaces = find_surfaces(kept.cloud, config, done);
   detection.points_used = static_cast<int>(surfaces.cloud.size());
-  detection.num_segments = static_cast<int>(surfaces.segments.list.size());
   const std::vector<Candidate> candidates = search_handles(surfaces.search_input(), gripper, config.search);
   done("handle_search");
   const CheckedCandidates checked = check_candidates(kept.cloud, surfaces, candidates, gripper, config);
   detection.num_candidates = checked.num_tried;
-  detection.candidate_failures = checked.candidate_failures;
-  detection.segment_failures = checked.segment_failures;
+  detection.candidate_failures = checked.failures;
+  detection.segments = checked.segments;
   done("handle_check");
   detection.handles = rank_handles(checked.handles, config.ranking);
   detection.status = detection.handles.empty() ? DetectionStatus::kNoHandles : DetectionStatus::kOk;

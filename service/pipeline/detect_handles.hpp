@@ -12,6 +12,7 @@
 #include "service/pipeline/handle.hpp"
 #include "service/pipeline/handle_check.hpp"
 #include "service/pipeline/point_cloud.hpp"
+#include "service/pipeline/segment_report.hpp"
 #include "service/pipeline/surfaces.hpp"
 
 namespace graspd {
@@ -25,10 +26,10 @@ struct Detection {
   std::vector<Handle> handles;  ///< best first, in the cloud's frame
   int points_in = 0;            ///< of the cloud
   int points_used = 0;          ///< after workspace filter and downsampling
-  int num_segments = 0;         ///< surfaces found
   int num_candidates = 0;       ///< gripper poses tried
   FailureCounts candidate_failures{};  ///< by the first check a candidate failed
-  FailureCounts segment_failures{};    ///< segments without a handle, by the last check that one of its candidates reached
+  std::vector<SegmentReport> segments;  ///< what became of each
+  [[nodiscard]] FailureCounts segment_failures() const;  ///< segments without a handle, by their reason
 };
 
 /// Finds the handles of a cloud. The result depends on the arguments alone, to the bit, for any number of threads; work

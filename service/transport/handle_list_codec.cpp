@@ -126,11 +126,11 @@ handle_list_t make_handle_list(const HandleListHeader& header, const Gripper& gr
   list.status_text = header.status_text;
   list.points_in = detection.points_in;
   list.points_used = detection.points_used;
-  list.num_segments = detection.num_segments;
+  list.num_segments = static_cast<std::int32_t>(detection.segments.size());
   list.num_candidates = detection.num_candidates;
   list.candidate_failures = wire_failures(detection.candidate_failures);
   list.num_candidate_failures = static_cast<std::int32_t>(list.candidate_failures.size());
-  list.segment_failures = wire_failures(detection.segment_failures);
+  list.segment_failures = wire_failures(detection.segment_failures());
   list.num_segment_failures = static_cast<std::int32_t>(list.segment_failures.size());
   for (const auto& [stage, milliseconds] : header.stages_ms) {
     stage_time_t entry;

@@ -83,7 +83,7 @@ TEST(HandleListCodec, ListSaysWhatTheDetectionFound) {
   detection.status = DetectionStatus::kOk;
   detection.points_in = 5;
   detection.points_used = 4;
-  detection.num_segments = 3;
+  detection.segments.resize(3);
   detection.num_candidates = 2;
   detection.candidate_failures[static_cast<std::size_t>(Failure::kPalm)] = 7;
   detection.candidate_failures[static_cast<std::size_t>(Failure::kTooWide)] = 8;
