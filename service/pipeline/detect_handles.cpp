@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/pipeline/detect_handles.hpp"
 
-#include "service/pipeline/candidate_checks.hpp"
+#include "service/pipeline/find_handles.hpp"
 #include "service/pipeline/surfaces.hpp"
 
 namespace graspd {
@@ -36,16 +36,14 @@ Detection detect_handles(const PointCloud& cloud, const Gripper& gripper, const 
 
   const Surfaces surfaces = find_surfaces(kept.cloud, config, done);
   detection.points_used = static_cast<int>(surfaces.cloud.size());
-  const std::vector<Candidate> candidates = search_handles(surfaces.search_input(), gripper, config.search);
-  done("handle_search");
-  const CheckedCandidates checked = check_candidates(kept.cloud, surfaces, candidates, gripper, config);
+  const CheckedCandidates checked = find_handles(kept.cloud, surfaces, gripper, config);
   detection.num_candidates = checked.num_tried;
   detection.candidate_failures = checked.failures;
   detection.segments = checked.segments;
-  done("handle_check");
+  done("handles");
   detection.handles = rank_handles(checked.handles, config.ranking);
   detection.status = detection.handles.empty() ? DetectionStatus::kNoHandles : DetectionStatus::kOk;
-  done("handle_ranking");
+  done("ranking");
   return detection;
 }
 

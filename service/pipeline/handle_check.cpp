@@ -80,12 +80,12 @@ Failure Check::check_volumes() {
   if (own < kMinOwnPoints) return Failure::kTooFewPoints;
   if (static_cast<float>(own) < config_.min_own_share * static_cast<float>(own + other)) return Failure::kNoGap;
   if (fingers > scene_.tolerance) return Failure::kFingers;
-  const auto blocked = [&](float z0, float z1) {
-    return scene_.query.has_more(handle_.position, handle_.rotation, {-half_e, -half_hand, z0}, {half_e, half_hand, z1},
+  const auto blocked = [&](float half_width, float z0, float z1) {
+    return scene_.query.has_more(handle_.position, handle_.rotation, {-half_e, -half_width, z0}, {half_e, half_width, z1},
                                  scene_.tolerance);
   };
-  if (blocked(hand_top, palm_top)) return Failure::kPalm;
-  return blocked(hand_top - config_.way_m, hand_top) ? Failure::kWay : Failure::kNone;
+  if (blocked(half_hand, hand_top, palm_top)) return Failure::kPalm;
+  return blocked(0.5f * g.aperture_m, hand_top - config_.way_m, hand_top) ? Failure::kWay : Failure::kNone;
 }
 
 Failure Check::check_support() const {

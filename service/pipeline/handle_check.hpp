@@ -73,7 +73,6 @@ struct Candidate {
   Eigen::Matrix3f rotation = Eigen::Matrix3f::Identity();  ///< columns: major axis, closing axis, approach
   std::int32_t segment = -1;
   std::int32_t object = -1;
-  int round = 0;  ///< 0: what the surface suggests first; 1: tried where that found too little
 };
 
 struct CheckResult {

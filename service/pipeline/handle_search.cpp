@@ -128,17 +128,20 @@ class SeedSearch {
     });
   }
 
-  void add(const std::vector<std::uint32_t>& points, std::int32_t object, std::vector<Candidate>& out) const {
+  void add(const std::vector<std::uint32_t>& points, std::int32_t object, SearchRound round,
+           std::vector<Candidate>& out) const {
     for (const std::uint32_t seed : spread_seeds(in_.cloud, points, config_.seed_spacing_m)) {
       const std::int32_t s = in_.segments.of_point[seed];
       if (s < 0) continue;
-      const Eigen::Vector3f p = in_.cloud.point(seed);
       const Directions outward = approaches(points, seed);
       for (std::size_t o = 0; o < outward.size(); ++o) {
-        const Directions axes = closing_axes(static_cast<std::size_t>(s), outward[o]);
+        const Directions axes = closing_axes(static_cast<std::size_t>(s), outward[o], round);
         // The surface's own normal and axes first (paper, section 5), the support's normal next to them.
-        for (std::size_t a = 0; a < axes.size(); ++a)
-          out.push_back({p, gripper_axes(outward[o], axes[a]), s, object, o < 2 && a < 2 ? 0 : 1});
+        for (std::size_t a = 0; a < axes.size(); ++a) {
+          const bool first = o < 2 && a < 2;
+          if (round == SearchRound::kAllDirections || first == (round == SearchRound::kSurface))
+            out.push_back({in_.cloud.point(seed), gripper_axes(outward[o], axes[a]), s, object});
+        }
       }
     }
   }
@@ -158,7 +161,8 @@ class SeedSearch {
     return outward;
   }
 
-  [[nodiscard]] Directions closing_axes(std::size_t s, const Eigen::Vector3f& outward) const {
+  [[nodiscard]] Directions closing_axes(std::size_t s, const Eigen::Vector3f& outward, SearchRound round) const {
+    if (round == SearchRound::kAllDirections) return all_directions(outward);
     const Segment& segment = in_.segments.list[s];
     Directions suggested{rectangle_axes_[s], segment.normal.cross(rectangle_axes_[s]), segment.major, segment.minor};
     if (in_.support) {
@@ -175,6 +179,16 @@ class SeedSearch {
     return axes;
   }
 
+  [[nodiscard]] Directions all_directions(const Eigen::Vector3f& outward) const {
+    const Eigen::Vector3f u = outward.unitOrthogonal(), v = outward.cross(u);
+    Directions axes;
+    for (int i = 0; i < config_.all_directions; ++i) {
+      const float angle = std::numbers::pi_v<float> * static_cast<float>(i) / static_cast<float>(config_.all_directions);
+      axes.push_back(std::cos(angle) * u + std::sin(angle) * v);
+    }
+    return axes;
+  }
+
   const SearchInput& in_;
   const HandleSearchConfig& config_;
   float max_cosine_ = 1;
@@ -183,26 +197,27 @@ class SeedSearch {
 
 }  // namespace
 
-std::vector<Candidate> search_handles(const SearchInput& input, const Gripper& gripper, const HandleSearchConfig& config) {
+std::vector<Candidate> search_handles(const SearchInput& input, const Gripper& gripper, const HandleSearchConfig& config,
+                                      SearchRound round, const std::vector<std::uint8_t>& wanted) {
   std::vector<Candidate> candidates;
-  if (config.bands)
+  if (config.bands && round == SearchRound::kSurface)
     for (std::size_t s = 0; s < input.segments.list.size(); ++s) {
       const Segment& segment = input.segments.list[s];
       for (const Eigen::Vector3f& axis : {segment.major, segment.minor})
         add_bands(input.cloud, segment, static_cast<std::int32_t>(s), input.objects.of_segment[s], axis,
                   gripper.finger_thickness_m, candidates);
     }
-  if (config.seeds) {
-    std::vector<std::vector<std::uint32_t>> points(static_cast<std::size_t>(input.objects.num_objects));
-    for (std::uint32_t i = 0; i < input.cloud.size(); ++i)
-      if (input.objects.of_point[i] >= 0) points[static_cast<std::size_t>(input.objects.of_point[i])].push_back(i);
-    const SeedSearch search(input, config);
-    std::vector<std::vector<Candidate>> found(points.size());
-    tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t object) {
-      search.add(points[object], static_cast<std::int32_t>(object), found[object]);
-    });
-    for (const auto& more : found) candidates.insert(candidates.end(), more.begin(), more.end());
-  }
+  if (!config.seeds) return candidates;
+  std::vector<std::vector<std::uint32_t>> points(wanted.size());
+  for (std::uint32_t i = 0; i < input.cloud.size(); ++i)
+    if (input.objects.of_point[i] >= 0 && wanted[static_cast<std::size_t>(input.objects.of_point[i])])
+      points[static_cast<std::size_t>(input.objects.of_point[i])].push_back(i);
+  const SeedSearch search(input, config);
+  std::vector<std::vector<Candidate>> found(points.size());
+  tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t object) {
+    if (!points[object].empty()) search.add(points[object], static_cast<std::int32_t>(object), round, found[object]);
+  });
+  for (const auto& more : found) candidates.insert(candidates.end(), more.begin(), more.end());
   return candidates;
 }
 

@@ -3,6 +3,8 @@
 // Candidates: gripper poses worth checking. The bands of the paper along each segment's axes, and seeds spread over each
 // object with the approaches and closing axes that its surfaces suggest.
 #pragma once
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -20,6 +22,7 @@ struct HandleSearchConfig {
   float seed_spacing_m = 0.025f;
   float min_facing_cosine = 0.17f;
   float distinct_angle_deg = 12.0f;
+  int all_directions = 18;
 
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& v) {
@@ -29,6 +32,8 @@ struct HandleSearchConfig {
     v("min_facing_cosine", self.min_facing_cosine, Range{0, 1},
       "cosine between the line of sight and the approach; smaller: the hand comes from behind");
     v("distinct_angle_deg", self.distinct_angle_deg, Range{1, 90}, "directions closer than this are tried once [degrees]");
+    v("all_directions", self.all_directions, Range{0, 180},
+      "closing axes over half a turn, tried on objects that have no handle otherwise");
   }
 };
 
@@ -41,7 +46,14 @@ struct SearchInput {
   const std::optional<Support>& support;
 };
 
+/// Candidates come in rounds, each for the objects on which those before found too few handles: what a surface itself
+/// suggests, then what the support and the line of sight do, then every direction.
+enum class SearchRound : std::uint8_t { kSurface, kSurroundings, kAllDirections };
+inline constexpr std::array kSearchRounds{SearchRound::kSurface, SearchRound::kSurroundings, SearchRound::kAllDirections};
+
+/// wanted: 1 for each object that candidates are asked for.
 [[nodiscard]] std::vector<Candidate> search_handles(const SearchInput& input, const Gripper& gripper,
-                                                    const HandleSearchConfig& config);
+                                                    const HandleSearchConfig& config, SearchRound round,
+                                                    const std::vector<std::uint8_t>& wanted);
 
 }  // namespace graspd

@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The graspd authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "service/pipeline/candidate_checks.hpp"
+#include "service/pipeline/find_handles.hpp"
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "service/pipeline/object_outline.hpp"
 
@@ -16,21 +17,18 @@ namespace {
 constexpr float kGridCell = 0.01f;   // of the box queries [m]
 constexpr int kVoxelTolerance = 2;   // stray points a volume may have: counts are absolute, noise does not scale
 constexpr int kPointTolerance = 4;
-constexpr int kRounds = 2;
-constexpr int kEnoughHandles = 8;    // of an object: no further round for it
 
 using Results = std::vector<CheckResult>;
 
 /// outlines: to refuse at little cost what is much too wide; may be null.
 Results check_all(const SceneView& scene, const Gripper& gripper, const HandleCheckConfig& config,
-                  const std::vector<Candidate>& candidates, const std::vector<std::size_t>& which,
-                  const ObjectOutlines* outlines) {
-  Results results(which.size());
+                  const std::vector<Candidate>& candidates, const ObjectOutlines* outlines) {
+  Results results(candidates.size());
   tbb::enumerable_thread_specific<CheckBuffers> buffers;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, which.size(), 8), [&](const auto& range) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, candidates.size(), 8), [&](const auto& range) {
     CheckBuffers& own = buffers.local();
     for (std::size_t i = range.begin(); i != range.end(); ++i) {
-      const Candidate& candidate = candidates[which[i]];
+      const Candidate& candidate = candidates[i];
       if (outlines && outlines->clearly_too_wide(candidate, gripper))
         results[i].failure = Failure::kTooWide;
       else
@@ -82,44 +80,59 @@ void count(const Candidate& candidate, Failure failure, CheckedCandidates& out) 
   ++out.failures[static_cast<std::size_t>(failure)];
 }
 
+/// The candidates that pass among the voxels; counts the others.
+std::vector<Candidate> prefilter(const SceneView& voxels, const Gripper& gripper, const HandleCheckConfig& config,
+                                 const std::vector<Candidate>& candidates, const ObjectOutlines& outlines,
+                                 CheckedCandidates& out) {
+  const Results coarse = check_all(voxels, gripper, config, candidates, &outlines);
+  std::vector<Candidate> left;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (coarse[i].failure == Failure::kNone)
+      left.push_back(candidates[i]);
+    else
+      count(candidates[i], coarse[i].failure, out);
+  }
+  return left;
+}
+
+/// An object with this many handles takes no part in a round.
+int enough_before(SearchRound round) {
+  switch (round) {
+    case SearchRound::kSurface: return std::numeric_limits<int>::max();
+    case SearchRound::kSurroundings: return 8;
+    case SearchRound::kAllDirections: return 1;
+  }
+  return 0;
+}
+
 }  // namespace
 
-CheckedCandidates check_candidates(const PointCloud& cloud, const Surfaces& surfaces,
-                                   const std::vector<Candidate>& candidates, const Gripper& gripper,
-                                   const DetectConfig& config) {
+CheckedCandidates find_handles(const PointCloud& cloud, const Surfaces& surfaces, const Gripper& gripper,
+                               const DetectConfig& config) {
   const DepthMap depth_map(cloud);
   const std::vector<std::int32_t> object_of_point = spread_to_points(surfaces.objects.of_point, surfaces.voxel_of_point);
   const BoxQuery voxel_query(surfaces.cloud, kGridCell), point_query(cloud, kGridCell);
-  const float leaf = config.downsample.leaf_size_m;
-  const SceneView voxels{surfaces.cloud, voxel_query, surfaces.objects.of_point, surfaces.normals, nullptr,
-                         surfaces.support, depth_map, object_of_point, leaf * leaf, kVoxelTolerance};
-  const SceneView points{cloud, point_query, object_of_point, surfaces.normals, &surfaces.voxel_of_point,
-                         surfaces.support, depth_map, object_of_point, leaf * leaf, kPointTolerance};
-
   const ObjectOutlines outlines(surfaces.cloud, surfaces.objects.of_point, surfaces.objects.num_objects);
+  const float area = config.downsample.leaf_size_m * config.downsample.leaf_size_m;
+  const SceneView voxels{surfaces.cloud, voxel_query, surfaces.objects.of_point, surfaces.normals, nullptr,
+                         surfaces.support, depth_map, object_of_point, area, kVoxelTolerance};
+  const SceneView points{cloud, point_query, object_of_point, surfaces.normals, &surfaces.voxel_of_point,
+                         surfaces.support, depth_map, object_of_point, area, kPointTolerance};
   CheckedCandidates out;
   out.segments = start_reports(surfaces);
   std::vector<int> handles_of_object(static_cast<std::size_t>(surfaces.objects.num_objects));
-  for (int round = 0; round < kRounds; ++round) {
-    std::vector<std::size_t> tried, left;
-    for (std::size_t i = 0; i < candidates.size(); ++i)
-      if (candidates[i].round == round &&
-          handles_of_object[static_cast<std::size_t>(candidates[i].object)] < kEnoughHandles)
-        tried.push_back(i);
-    const Results coarse = check_all(voxels, gripper, config.check, candidates, tried, &outlines);
-    for (std::size_t k = 0; k < tried.size(); ++k) {
-      if (coarse[k].failure == Failure::kNone)
-        left.push_back(tried[k]);
-      else
-        count(candidates[tried[k]], coarse[k].failure, out);
-    }
-    const Results fine = check_all(points, gripper, config.check, candidates, left, nullptr);
+  for (const SearchRound round : kSearchRounds) {
+    std::vector<std::uint8_t> wanted(handles_of_object.size());
+    for (std::size_t k = 0; k < wanted.size(); ++k)
+      wanted[k] = handles_of_object[k] < enough_before(round) ? 1 : 0;
+    const std::vector<Candidate> candidates = search_handles(surfaces.search_input(), gripper, config.search, round, wanted);
+    const std::vector<Candidate> left = prefilter(voxels, gripper, config.check, candidates, outlines, out);
+    const Results fine = check_all(points, gripper, config.check, left, nullptr);
     for (std::size_t k = 0; k < left.size(); ++k) {
-      const Candidate& candidate = candidates[left[k]];
-      count(candidate, fine[k].failure, out);
+      count(left[k], fine[k].failure, out);
       if (fine[k].failure != Failure::kNone) continue;
-      const auto object = static_cast<std::size_t>(candidate.object);
-      out.handles.push_back({scored(fine[k], surfaces.objects.center[object]), candidate.object});
+      const auto object = static_cast<std::size_t>(left[k].object);
+      out.handles.push_back({scored(fine[k], surfaces.objects.center[object]), left[k].object});
       ++handles_of_object[object];
     }
   }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The graspd authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Checks all candidates: first against the voxels, which costs little, then what is left against every point.
+// Searches and checks in rounds: each candidate first against the voxels, which costs little, then against every point.
 #pragma once
 #include <vector>
 
@@ -18,8 +18,7 @@ struct CheckedCandidates {
 };
 
 /// cloud: every point of the workspace, that the surfaces were found in.
-[[nodiscard]] CheckedCandidates check_candidates(const PointCloud& cloud, const Surfaces& surfaces,
-                                                 const std::vector<Candidate>& candidates, const Gripper& gripper,
-                                                 const DetectConfig& config);
+[[nodiscard]] CheckedCandidates find_handles(const PointCloud& cloud, const Surfaces& surfaces, const Gripper& gripper,
+                                             const DetectConfig& config);
 
 }  // namespace graspd
