@@ -18,7 +18,9 @@ int run_program(CLI::App& app, int argc, char** argv, const std::function<int()>
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kExitOk : kExitUsage;
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help and --version
+    say(app, std::string(error.what()) + " (see --help)");
+    return kExitUsage;
   }
   catch_stop_signals();
   try {

@@ -74,6 +74,8 @@ int record(const CLI::App& app, const Options& o) {
   bus.subscribe(
       o.channel,
       [&](const Packet& packet) {
+        // What LCM sends itself when it starts is nobody's message.
+        if (packet.channel == "LCM_SELF_TEST") return;
         if (!done()) recorder.record(packet.recv_utime, packet.channel, packet.bytes);
       },
       kQueue);
