@@ -175,11 +175,11 @@ class GraspdTest(unittest.TestCase):
         path.write_text(text, encoding="utf-8")
         return path
 
-    def simulate(self, count, *arguments, width=160, height=120):
+    def simulate(self, count, *arguments, width=320):
         """A folder of simulated frames."""
         frames = self.folder / "frames"
-        self.run_program("graspd-simulate", "--output", frames, "--count", count, "--width", width, "--height", height,
-                         "--seed", 7, *arguments)
+        self.run_program("graspd-simulate", "--output", frames, "--frames", count, "--new-scene-every", 1,
+                         "--width", width, "--seed", 7, *arguments)
         files = sorted(frames.glob("*.pcd"))
         self.assertEqual(len(files), count)
         return frames

@@ -9,6 +9,13 @@ from lcm_udp import LONG, SHORT
 from traffic import TrafficTest
 
 LIST = TYPES["handle_list_t"].constants
+CONFIG = """
+sources:
+  - name: camera
+    channel: GRASPD_CLOUD
+    policy: all
+    queue_length: 200
+"""
 GOOD = {LIST["OK"], LIST["NO_HANDLES"]}
 
 
@@ -22,11 +29,11 @@ def replaced(data, at, code, value):
 class Hostile(TrafficTest):
     def setUp(self):
         super().setUp()
-        self.cloud = self.record_frames(1)[0]
+        self.cloud = self.record_frames(1, width=160)[0]
         self.cloud.frame_name = "f"
         self.cloud.seq = 1
         self.bus = self.open_bus()
-        self.daemon = self.start_daemon(self.bus)
+        self.daemon = self.start_daemon(self.bus, self.write_config(CONFIG))
 
     def assert_refused(self, messages):
         """Every message is answered REFUSED and counted with a reason; a good frame before and after is served."""

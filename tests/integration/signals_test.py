@@ -66,7 +66,7 @@ class Signals(TrafficTest):
         bus = self.open_bus()
         for number in (signal.SIGTERM, signal.SIGINT):
             for name, *options in (["graspd-publish", "--loop", "--rate", 20, frames],
-                                   ["graspd-simulate", "--rate", 20, "--width", 160, "--height", 120]):
+                                   ["graspd-simulate", "--rate", 20, "--width", 160]):
                 with self.subTest(signal=number, program=name):
                     before = len(bus.on(CLOUDS))
                     program = self.start(name, *options)

@@ -32,7 +32,7 @@ COUNT = 25
 
 class Sources(TrafficTest):
     def test_two_sources_keep_their_order(self):
-        small, large = self.record_frames(1)[0], self.record_frames(1, width=240, height=180)[0]
+        small, large = (self.record_frames(1, width=width)[0] for width in (160, 320))
         bus = self.open_bus()
         self.start_daemon(bus, self.write_config(TWO))
         for seq in range(COUNT):
@@ -57,7 +57,7 @@ class Sources(TrafficTest):
             self.assertEqual(a.width, b.width)
 
     def test_channels_of_a_regular_expression_are_sources_of_their_own(self):
-        frame = self.record_frames(1)[0]
+        frame = self.record_frames(1, width=160)[0]
         bus = self.open_bus()
         self.start_daemon(bus, self.write_config(PATTERN))
         channels = ["CAMERA_1", "CAMERA_22", "CAMERA_333"]
@@ -74,7 +74,7 @@ class Sources(TrafficTest):
         self.assertEqual(counted, dict.fromkeys(channels, COUNT))
 
     def test_a_gap_in_the_numbers_is_counted_as_lost(self):
-        frame = self.record_frames(1)[0]
+        frame = self.record_frames(1, width=160)[0]
         bus = self.open_bus()
         self.start_daemon(bus, self.write_config(TWO))
         for seq in (5, 6, 9, 10, 20):

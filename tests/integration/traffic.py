@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The graspd authors
 # SPDX-License-Identifier: BSD-3-Clause
 """Frames as messages in our hands: recorded once from graspd-publish, then sent again as a test wants them."""
-from harness import CLOUDS, PORT, TYPES, GraspdTest, wait_until
+from harness import CLOUDS, TYPES, GraspdTest, wait_until
+from lcm_udp import PORT, Bus
 
 
 def waiting_bytes():
@@ -15,9 +16,12 @@ class TrafficTest(GraspdTest):
     def record_frames(self, count, kind="cloud", **size):
         """Simulated frames as decoded messages."""
         frames = self.simulate(count, **size)
-        bus = self.open_bus()
-        self.run_program("graspd-publish", "--type", kind, "--rate", 50, frames)
-        wait_until(lambda: (bus.receive(0.02), len(bus.on(CLOUDS)) == count)[1], "the published frames")
+        bus = Bus()
+        try:
+            self.run_program("graspd-publish", "--type", kind, "--rate", 20, frames)
+            wait_until(lambda: (bus.receive(0.02), len(bus.on(CLOUDS)) == count)[1], "the published frames")
+        finally:
+            bus.close()
         wire_type = TYPES["point_cloud_t" if kind == "cloud" else "depth_image_t"]
         return bus.on(CLOUDS, wire_type)
 
