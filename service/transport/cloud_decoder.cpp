@@ -26,9 +26,8 @@ std::string unknown_type_text(std::uint64_t type) {
          hex(kPointCloudFingerprint) + " or depth_image_t " + hex(kDepthImageFingerprint) + ")";
 }
 
-}  // namespace
-
-std::variant<Frame, Refusal> decode_cloud(std::span<const std::byte> message, const DecodeLimits& limits) {
+/// Type and size.
+std::optional<Refusal> check_envelope(std::span<const std::byte> message, const DecodeLimits& limits) {
   const std::optional<std::uint64_t> type = fingerprint(message);
   if (!type) {
     return refuse(RefusalReason::kTruncated, "fingerprint",
@@ -44,8 +43,23 @@ std::variant<Frame, Refusal> decode_cloud(std::span<const std::byte> message, co
                       std::to_string(limits.max_message_bytes) + ")",
                   peek_header(message, limits));
   }
-  return *type == kPointCloudFingerprint ? decode_point_cloud(message, limits)
-                                         : decode_depth_image(message, limits);
+  return std::nullopt;
+}
+
+bool is_point_cloud(std::span<const std::byte> message) {
+  return fingerprint(message) == kPointCloudFingerprint;
+}
+
+}  // namespace
+
+std::variant<Frame, Refusal> decode_cloud(std::span<const std::byte> message, const DecodeLimits& limits) {
+  if (auto refusal = check_envelope(message, limits)) return *std::move(refusal);
+  return is_point_cloud(message) ? decode_point_cloud(message, limits) : decode_depth_image(message, limits);
+}
+
+std::optional<Refusal> check_cloud(std::span<const std::byte> message, const DecodeLimits& limits) {
+  if (auto refusal = check_envelope(message, limits)) return refusal;
+  return is_point_cloud(message) ? check_point_cloud(message, limits) : check_depth_image(message, limits);
 }
 
 FrameHeader peek_header(std::span<const std::byte> message, const DecodeLimits& limits) {

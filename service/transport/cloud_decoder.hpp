@@ -3,6 +3,7 @@
 // Any message that clouds come in -> Frame, or the reason why not.
 #pragma once
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <variant>
 
@@ -15,6 +16,10 @@ namespace graspd {
 /// allocates no more than the limits allow. A frame of zero points is a frame.
 [[nodiscard]] std::variant<Frame, Refusal> decode_cloud(std::span<const std::byte> message,
                                                         const DecodeLimits& limits);
+
+/// What decode_cloud would refuse, without the work of it: microseconds for any size.
+[[nodiscard]] std::optional<Refusal> check_cloud(std::span<const std::byte> message,
+                                                 const DecodeLimits& limits);
 
 /// The header alone, for messages that are answered without being decoded; defaults from the first member
 /// that cannot be read on.

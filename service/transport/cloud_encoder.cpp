@@ -49,6 +49,7 @@ class Packer {
 
   template <class Value>
   void fill(std::size_t field, std::span<const Value> values) {
+    if (values.empty()) return;  // the field need not be there
     auto* target = message_.data.data() + message_.fields[field].offset;
     const auto step = static_cast<std::size_t>(message_.point_step);
     for (std::size_t i = 0; i < values.size(); ++i) std::memcpy(target + i * step, &values[i], sizeof(Value));

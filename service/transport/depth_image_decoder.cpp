@@ -63,6 +63,32 @@ std::optional<Refusal> check_calibration(const Members& m) {
   return std::nullopt;
 }
 
+/// Without any pixels, intrinsics say nothing.
+bool has_pixels(const Members& m) {
+  return m.width > 0 && m.height > 0;
+}
+
+/// A message that passed every check: what is left is to unproject.
+struct Parsed {
+  Members members;
+  std::span<const std::byte> data;
+};
+
+std::variant<Parsed, Refusal> parse(std::span<const std::byte> message, const DecodeLimits& limits) {
+  ByteReader reader(message);
+  reader.skip("fingerprint", kFingerprintBytes);
+  Parsed parsed{read_members(reader, limits), {}};
+  const Members& m = parsed.members;
+  if (!reader.ok()) return refuse(reader, kType, m.header);
+  const DataLayout layout{kType, m.width, m.height, sizeof(std::uint16_t), m.data_size, reader.remaining()};
+  if (auto refusal = check_layout(layout, limits, m.header)) return *std::move(refusal);
+  if (has_pixels(m)) {
+    if (auto refusal = check_calibration(m)) return *std::move(refusal);
+  }
+  parsed.data = reader.bytes("data", reader.remaining());
+  return parsed;
+}
+
 /// The pinhole model. A pixel's ray does not depend on its depth, so each column's and row's share is
 /// computed once.
 void unproject(std::span<const std::byte> data, const Members& m, PointCloud& cloud) {
@@ -93,24 +119,22 @@ void unproject(std::span<const std::byte> data, const Members& m, PointCloud& cl
 
 }  // namespace
 
+std::optional<Refusal> check_depth_image(std::span<const std::byte> message, const DecodeLimits& limits) {
+  std::variant<Parsed, Refusal> parsed = parse(message, limits);
+  if (auto* refusal = std::get_if<Refusal>(&parsed)) return std::move(*refusal);
+  return std::nullopt;
+}
+
 std::variant<Frame, Refusal> decode_depth_image(std::span<const std::byte> message,
                                                 const DecodeLimits& limits) {
-  ByteReader reader(message);
-  reader.skip("fingerprint", kFingerprintBytes);
-  Members m = read_members(reader, limits);
-  if (!reader.ok()) return refuse(reader, kType, m.header);
-  const DataLayout layout{kType, m.width, m.height, sizeof(std::uint16_t), m.data_size, reader.remaining()};
-  if (auto refusal = check_layout(layout, limits, m.header)) return *std::move(refusal);
-  const bool has_pixels = m.width > 0 && m.height > 0;  // without any, intrinsics say nothing
-  if (has_pixels) {
-    if (auto refusal = check_calibration(m)) return *std::move(refusal);
-  }
-
+  std::variant<Parsed, Refusal> parsed = parse(message, limits);
+  if (auto* refusal = std::get_if<Refusal>(&parsed)) return std::move(*refusal);
+  Members& m = std::get<Parsed>(parsed).members;
   Frame frame{m.header.utime, m.header.seq, std::move(m.header.frame_name), {}};
   frame.cloud.width = m.width;
   frame.cloud.height = m.height;
   frame.cloud.resize(static_cast<std::size_t>(m.width) * static_cast<std::size_t>(m.height));
-  if (has_pixels) unproject(reader.bytes("data", reader.remaining()), m, frame.cloud);
+  if (has_pixels(m)) unproject(std::get<Parsed>(parsed).data, m, frame.cloud);
   return frame;
 }
 

@@ -130,6 +130,24 @@ std::optional<Refusal> check(const Members& m, std::size_t remaining, const Deco
   return refusal;
 }
 
+/// A message that passed every check: what is left is to copy.
+struct Parsed {
+  Members members;
+  Offsets offsets{};
+  std::span<const std::byte> data;
+};
+
+std::variant<Parsed, Refusal> parse(std::span<const std::byte> message, const DecodeLimits& limits) {
+  ByteReader reader(message);
+  reader.skip("fingerprint", kFingerprintBytes);
+  Parsed parsed{read_members(reader, limits), {}, {}};
+  if (!reader.ok()) return refuse(reader, kType, parsed.members.header);
+  if (auto refusal = check(parsed.members, reader.remaining(), limits, parsed.offsets))
+    return *std::move(refusal);
+  parsed.data = reader.bytes("data", reader.remaining());
+  return parsed;
+}
+
 void unpack(std::span<const std::byte> data, std::size_t point_step, const Offsets& offsets,
             PointCloud& cloud) {
   const std::size_t n = cloud.size();
@@ -146,22 +164,24 @@ void unpack(std::span<const std::byte> data, std::size_t point_step, const Offse
 
 }  // namespace
 
+std::optional<Refusal> check_point_cloud(std::span<const std::byte> message, const DecodeLimits& limits) {
+  std::variant<Parsed, Refusal> parsed = parse(message, limits);
+  if (auto* refusal = std::get_if<Refusal>(&parsed)) return std::move(*refusal);
+  return std::nullopt;
+}
+
 std::variant<Frame, Refusal> decode_point_cloud(std::span<const std::byte> message,
                                                 const DecodeLimits& limits) {
-  ByteReader reader(message);
-  reader.skip("fingerprint", kFingerprintBytes);
-  Members m = read_members(reader, limits);
-  if (!reader.ok()) return refuse(reader, kType, m.header);
-  Offsets offsets{};
-  if (auto refusal = check(m, reader.remaining(), limits, offsets)) return *std::move(refusal);
-
+  std::variant<Parsed, Refusal> parsed = parse(message, limits);
+  if (auto* refusal = std::get_if<Refusal>(&parsed)) return std::move(*refusal);
+  Parsed& p = std::get<Parsed>(parsed);
+  Members& m = p.members;
   Frame frame{m.header.utime, m.header.seq, std::move(m.header.frame_name), {}};
   frame.cloud.width = m.width;
   frame.cloud.height = m.height;
   frame.cloud.viewpoint = Eigen::Vector3d(m.viewpoint.data()).cast<float>();
   frame.cloud.resize(static_cast<std::size_t>(m.width) * static_cast<std::size_t>(m.height));
-  unpack(reader.bytes("data", reader.remaining()), static_cast<std::size_t>(m.point_step), offsets,
-         frame.cloud);
+  unpack(p.data, static_cast<std::size_t>(m.point_step), p.offsets, frame.cloud);
   return frame;
 }
 

@@ -3,6 +3,7 @@
 // point_cloud_t -> Frame.
 #pragma once
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <variant>
 
@@ -14,5 +15,9 @@ namespace graspd {
 /// The message with its fingerprint, which the caller has looked at.
 [[nodiscard]] std::variant<Frame, Refusal> decode_point_cloud(std::span<const std::byte> message,
                                                               const DecodeLimits& limits);
+
+/// What decoding would refuse, without the work of it.
+[[nodiscard]] std::optional<Refusal> check_point_cloud(std::span<const std::byte> message,
+                                                       const DecodeLimits& limits);
 
 }  // namespace graspd

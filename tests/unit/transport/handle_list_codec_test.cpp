@@ -84,6 +84,8 @@ TEST(HandleListCodec, ListSaysWhatTheDetectionFound) {
   detection.points_in = 5;
   detection.points_used = 4;
   detection.segments.resize(3);
+  detection.segments[0].num_handles = detection.segments[2].num_handles = 1;
+  detection.segments[1].failures[static_cast<std::size_t>(Failure::kPalm)] = 2;
   detection.num_candidates = 2;
   detection.candidate_failures[static_cast<std::size_t>(Failure::kPalm)] = 7;
   detection.candidate_failures[static_cast<std::size_t>(Failure::kTooWide)] = 8;
@@ -119,7 +121,9 @@ TEST(HandleListCodec, ListSaysWhatTheDetectionFound) {
   EXPECT_EQ(list->candidate_failures[0].reason, name(Failure::kTooWide));  // in the order of the checks
   EXPECT_EQ(list->candidate_failures[0].count, 8);
   EXPECT_EQ(list->candidate_failures[1].count, 7);
-  EXPECT_EQ(list->num_segment_failures, 0);
+  ASSERT_EQ(list->num_segment_failures, 1);
+  EXPECT_EQ(list->segment_failures[0].reason, name(Failure::kPalm));
+  EXPECT_EQ(list->segment_failures[0].count, 1);
   ASSERT_EQ(list->num_stages, 2);
   EXPECT_EQ(list->stages[1].stage, "growing");
   EXPECT_EQ(list->stages[1].milliseconds, 2.5);

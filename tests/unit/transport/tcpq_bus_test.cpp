@@ -96,7 +96,7 @@ TEST(TcpqBus, LostConnectionsCloseTheBusAndLeaveTheProcessAlive) {
 
 TEST(TcpqBus, ConnectionsLostInAMessageCloseTheBus) {
   Bytes part = message_on_channel_a("hello");
-  part.resize(part.size() - 2);
+  part.pop_back();
   OneShotServer server(part);
   LcmBus bus(server.url("127.0.0.1"));
   bus.subscribe("A", [](const Packet&) { FAIL() << "half a message"; });
