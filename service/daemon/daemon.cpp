@@ -112,12 +112,12 @@ Stream& Daemon::add_stream(std::size_t source, const std::string& channel) {
 }
 
 void Daemon::take(Stream& stream, const Packet& packet) {
-  Job job{&stream,
-          stream.gate.take_ticket(),
-          {peek_header(packet.bytes, config_.limits.decode), {}, arrival_of(packet)}};
+  const DecodeLimits& limits = config_.limits.decode;
+  Job job{&stream, stream.gate.take_ticket(), {peek_header(packet.bytes, limits), {}, arrival_of(packet)}};
   stream.health.received(job.message.header.seq);
-  if (packet.bytes.size() > static_cast<std::size_t>(config_.limits.decode.max_message_bytes)) {
-    stream.gate.release(job.ticket, stream.processor.refuse(packet.bytes, job.message.arrival));
+  // Here already, so that what cannot be used never takes the place of a frame that can.
+  if (const std::optional<Refusal> refusal = check_cloud(packet.bytes, limits)) {
+    stream.gate.release(job.ticket, stream.processor.refuse(*refusal, job.message.arrival));
     return;
   }
   try {

@@ -71,7 +71,7 @@ Answer FrameProcessor::detect(const FrameMessage& message, const std::atomic<boo
     if (cancelled) throw Cancelled{};
   };
   const std::variant<Frame, Refusal> decoded = decode_cloud(message.bytes, limits_);
-  if (const auto* refusal = std::get_if<Refusal>(&decoded)) return refused(*refusal, message.arrival);
+  if (const auto* refusal = std::get_if<Refusal>(&decoded)) return refuse(*refusal, message.arrival);
   on_stage("decode");
   const Frame& frame = std::get<Frame>(decoded);
   const Gripper& gripper = source_.gripper.gripper;
@@ -82,15 +82,6 @@ Answer FrameProcessor::detect(const FrameMessage& message, const std::atomic<boo
   header.stages_ms = std::move(timer.stages_ms);
   return {Outcome::kProcessed, std::nullopt, message.arrival,
           make_handle_list(header, gripper, detection, source_.sensor_pose.T_target_cloud())};
-}
-
-Answer FrameProcessor::refuse(std::span<const std::byte> bytes, Clock::TimePoint arrival) const {
-  const FrameHeader header = peek_header(bytes, limits_);
-  return refused({RefusalReason::kTooLarge,
-                  "message of " + std::to_string(bytes.size()) + " bytes, at most " +
-                      std::to_string(limits_.max_message_bytes) + " are accepted",
-                  header.utime, header.seq, header.frame_name},
-                 arrival);
 }
 
 Answer FrameProcessor::drop(const FrameMessage& message, const std::string& why) const {
@@ -107,7 +98,7 @@ Answer FrameProcessor::fail(const FrameMessage& message, const std::string& why)
   return without_detection(Outcome::kFailed, std::move(header), message.arrival);
 }
 
-Answer FrameProcessor::refused(const Refusal& refusal, Clock::TimePoint arrival) const {
+Answer FrameProcessor::refuse(const Refusal& refusal, Clock::TimePoint arrival) const {
   HandleListHeader header = list_header({refusal.utime, refusal.seq, refusal.frame_name});
   header.status = handle_list_t::REFUSED;
   header.status_text = std::string(name(refusal.reason)) + ": " + refusal.text;

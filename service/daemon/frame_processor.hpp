@@ -4,7 +4,6 @@
 #pragma once
 #include <atomic>
 #include <cstddef>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -34,8 +33,8 @@ class FrameProcessor {
   /// the stage it is in, as dropped.
   [[nodiscard]] Answer process(const FrameMessage& message, const std::atomic<bool>& cancelled) const;
 
-  /// For a message that is larger than the limits, without a copy of it.
-  [[nodiscard]] Answer refuse(std::span<const std::byte> bytes, Clock::TimePoint arrival) const;
+  /// For messages that are not processed.
+  [[nodiscard]] Answer refuse(const Refusal& refusal, Clock::TimePoint arrival) const;
   [[nodiscard]] Answer drop(const FrameMessage& message, const std::string& why) const;
   [[nodiscard]] Answer fail(const FrameMessage& message, const std::string& why) const;
 
@@ -43,7 +42,6 @@ class FrameProcessor {
   struct Cancelled {};
 
   Answer detect(const FrameMessage& message, const std::atomic<bool>& cancelled) const;
-  Answer refused(const Refusal& refusal, Clock::TimePoint arrival) const;
   HandleListHeader list_header(const FrameHeader& header) const;
   Answer without_detection(Outcome outcome, HandleListHeader header, Clock::TimePoint arrival) const;
 

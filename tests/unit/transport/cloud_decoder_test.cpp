@@ -110,6 +110,25 @@ TEST(CloudDecoder, RefusalsCarryTheHeaderAsFarAsItWentWell) {
   }
 }
 
+TEST(CloudDecoder, ChecksWhatDecodingWouldRefuse) {
+  const auto same = [](const Bytes& message) {
+    const auto decoded = decode_cloud(message, {});
+    const auto* refusal = std::get_if<Refusal>(&decoded);
+    const std::optional<Refusal> checked = check_cloud(message, {});
+    ASSERT_EQ(checked.has_value(), refusal != nullptr);
+    if (refusal == nullptr) return;
+    EXPECT_EQ(checked->reason, refusal->reason);
+    EXPECT_EQ(checked->text, refusal->text);
+    EXPECT_EQ(checked->seq, refusal->seq);
+    EXPECT_EQ(checked->frame_name, refusal->frame_name);
+  };
+  for (const Bytes& message : small_messages()) {
+    same(message);
+    for_each_truncation(message, same);
+    for_each_corruption(message, same);
+  }
+}
+
 TEST(CloudDecoder, PeeksAtTheHeaderOfCloudsAlone) {
   EXPECT_EQ(peek_header(small_messages()[0], {}).frame_name, "camera");
   EXPECT_EQ(peek_header(small_messages()[1], {}).seq, 8);
