@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The graspd authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Points of a cloud inside an oriented box, in the box's own coordinates: what the gripper's volumes are tested with.
+// Points of a cloud inside an oriented box, in the box's own coordinates: what the gripper's volumes are
+// tested with.
 #pragma once
 #include <Eigen/Geometry>
 #include <cstdint>
@@ -31,18 +32,19 @@ class BoxQuery {
   /// All points must be finite. cell_m: side of the grid's cells, about a third of the boxes asked for.
   BoxQuery(const PointCloud& cloud, float cell_m);
 
-  /// Points whose coordinates rotation^T (p - origin) lie in [min, max], in an order fixed by their positions. Replaces
-  /// what is in out.
+  /// Points whose coordinates rotation^T (p - origin) lie in [min, max], in an order fixed by their
+  /// positions. Replaces what is in out.
   void find(const Eigen::Vector3f& origin, const Eigen::Matrix3f& rotation, const Eigen::Vector3f& min,
             const Eigen::Vector3f& max, LocalPoints& out) const;
 
   /// Whether more than limit points lie in the box.
-  [[nodiscard]] bool has_more(const Eigen::Vector3f& origin, const Eigen::Matrix3f& rotation, const Eigen::Vector3f& min,
-                              const Eigen::Vector3f& max, int limit) const;
+  [[nodiscard]] bool has_more(const Eigen::Vector3f& origin, const Eigen::Matrix3f& rotation,
+                              const Eigen::Vector3f& min, const Eigen::Vector3f& max, int limit) const;
 
  private:
   struct Box;
-  /// Calls visit(from, to) with ranges of positions that hold all points of the box; it returns false to stop.
+  /// Calls visit(from, to) with ranges of positions that hold all points of the box; it returns false to
+  /// stop.
   template <class Visit>
   void for_each_range(const Box& box, Visit visit) const;
 

@@ -34,7 +34,9 @@ void radix_sort(std::vector<Entry>& entries, int num_bits) {
   }
 }
 
-int cell_index(float coordinate, float per_cell) { return static_cast<int>(std::floor(coordinate * per_cell)); }
+int cell_index(float coordinate, float per_cell) {
+  return static_cast<int>(std::floor(coordinate * per_cell));
+}
 
 int cell_range(const std::vector<float>& v, float per_cell, int& min) {
   const auto [lo, hi] = std::minmax_element(v.begin(), v.end());

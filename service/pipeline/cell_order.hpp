@@ -10,16 +10,18 @@
 
 namespace graspd {
 
-/// Cells are cubes of side cell_m, aligned to the origin of the cloud's frame, numbered row by row: the neighbours of a
-/// cell along x have the keys next to its own, and no neighbour of an occupied cell wraps to another row.
+/// Cells are cubes of side cell_m, aligned to the origin of the cloud's frame, numbered row by row: the
+/// neighbours of a cell along x have the keys next to its own, and no neighbour of an occupied cell wraps to
+/// another row.
 struct CellOrder {
   float cell_m = 1;
-  Eigen::Vector3i min_cell = Eigen::Vector3i::Zero();  ///< one less than the smallest occupied cell on each axis
-  std::int64_t row = 1;                                ///< from one key to the same x in the next row along y
-  std::int64_t layer = 1;                              ///< and in the next layer along z
-  std::vector<std::uint32_t> points;                   ///< indices into the cloud, sorted by key; stable
-  std::vector<std::int64_t> keys;                      ///< of the occupied cells, ascending
-  std::vector<std::uint32_t> starts;                   ///< keys.size() + 1 positions in points where a cell begins
+  Eigen::Vector3i min_cell =
+      Eigen::Vector3i::Zero();        ///< one less than the smallest occupied cell on each axis
+  std::int64_t row = 1;               ///< from one key to the same x in the next row along y
+  std::int64_t layer = 1;             ///< and in the next layer along z
+  std::vector<std::uint32_t> points;  ///< indices into the cloud, sorted by key; stable
+  std::vector<std::int64_t> keys;     ///< of the occupied cells, ascending
+  std::vector<std::uint32_t> starts;  ///< keys.size() + 1 positions in points where a cell begins
 
   [[nodiscard]] std::size_t num_cells() const { return keys.size(); }
   [[nodiscard]] std::int64_t key(const Eigen::Vector3i& cell) const {

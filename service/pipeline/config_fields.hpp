@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The graspd authors
 // SPDX-License-Identifier: BSD-3-Clause
-// How configuration structs describe their fields: once, for reading, printing, range checks and documentation.
+// How configuration structs describe their fields: once, for reading, printing, range checks and
+// documentation.
 #pragma once
 #include <limits>
 #include <optional>
@@ -28,6 +29,7 @@ struct ConfigProblem {
 //   v("downsample", self.downsample, "one point a voxel");
 // and, where fields depend on each other,
 //   std::optional<ConfigProblem> validate() const;
-// Self is const for printing. Field types: bool, int, float, double, std::string, std::vector of those, Eigen::Vector3f.
+// Self is const for printing. Field types: bool, int, float, double, std::string, std::vector of those,
+// Eigen::Vector3f.
 
 }  // namespace graspd

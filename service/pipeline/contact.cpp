@@ -11,23 +11,26 @@
 namespace graspd {
 namespace {
 
-constexpr float kEndZone = 0.004f;        // points this close to the end are the end [m]
-constexpr float kFaceLength = 0.030f;     // of the face that is carried on [m]
-constexpr float kWallShare = 0.35f;       // of the end's points that must face the jaw
-constexpr float kSeenFree = 0.2f;         // up to this hidden share a place counts as seen to be free
-constexpr float kHideMargin = 0.008f;     // nearer by this much hides [m]
-constexpr float kCameraSide = 0.40f;      // cosine: beyond it the sensor would have seen the wall
-constexpr float kMaxWedge = 0.65f;        // mean tilt of a face that ends at free space [rad]
-constexpr float kMaxFlatTilt = 0.40f;     // tilt of a flat face that is carried on [rad]
-constexpr float kMaxRadius = 0.06f;       // larger circles count as flat [m]
+constexpr float kEndZone = 0.004f;       // points this close to the end are the end [m]
+constexpr float kFaceLength = 0.030f;    // of the face that is carried on [m]
+constexpr float kWallShare = 0.35f;      // of the end's points that must face the jaw
+constexpr float kSeenFree = 0.12f;       // up to this hidden share a place counts as seen to be free
+constexpr float kHidden = 0.30f;         // from this share on as hidden; between the two it must do as both
+constexpr float kMinFaceArea = 0.8e-4f;  // seen, of a face that is carried on [m2]
+constexpr float kMaxRise = 0.50f;      // of a face towards its end: one that curls up is not understood [rad]
+constexpr float kHideMargin = 0.008f;  // nearer by this much hides [m]
+constexpr float kCameraSide = 0.40f;   // cosine: beyond it the sensor would have seen the wall
+constexpr float kMaxWedge = 0.65f;     // mean tilt of a face that ends at free space [rad]
+constexpr float kMaxFlatTilt = 0.40f;  // tilt of a flat face that is carried on [rad]
+constexpr float kMaxRadius = 0.06f;    // larger circles count as flat [m]
 
 /// A point of the face near the end: distance inwards from the end, and depth.
 struct FacePoint {
   float in, z;
 };
 
-/// z = c0 + c1 in + c2 in^2 by iteratively reweighted least squares (Cauchy weights, scale 2 mm); in is scaled to keep
-/// the normal equations well conditioned.
+/// z = c0 + c1 in + c2 in^2 by iteratively reweighted least squares (Cauchy weights, scale 2 mm); in is
+/// scaled to keep the normal equations well conditioned.
 Eigen::Vector3f fit_profile(const std::vector<FacePoint>& face, float span) {
   Eigen::Vector3f c = Eigen::Vector3f::Zero();
   std::vector<float> weight(face.size(), 1.0f);
@@ -73,12 +76,17 @@ EndPoints collect_end(const ContactInput& in, float side, float end_m, float min
   return out;
 }
 
+bool too_small(const ContactInput& in, const std::vector<FacePoint>& face) {
+  return face.size() < 8 || static_cast<float>(face.size()) * in.area_per_point_m2 < kMinFaceArea;
+}
+
 /// Whether something nearer hides what comes after the end, which then is no edge of the object.
 bool ends_by_occlusion(const ContactInput& in, float side, float end_m, float end_depth_m) {
   int hidden = 0;
   for (const float a : {-0.3f, 0.0f, 0.3f}) {
     const Eigen::Vector3f beyond(a * in.finger_thickness_m, end_m + side * 0.006f, end_depth_m);
-    hidden += in.scene.depth_map.hider(in.position + in.rotation * beyond, kHideMargin) != DepthMap::kFree ? 1 : 0;
+    hidden +=
+        in.scene.depth_map.hider(in.position + in.rotation * beyond, kHideMargin) != DepthMap::kFree ? 1 : 0;
   }
   return hidden >= 2;
 }
@@ -89,17 +97,21 @@ Contact edge_contact(const ContactInput& in, float side, float end_m, float hidd
   float span = 1e-3f;
   for (const FacePoint& f : face) span = std::max(span, f.in);
   const Eigen::Vector3f c = fit_profile(face, span);
-  // Tilts of the face at the end, at the far side of the fitted part and between: positive falls away towards the end.
+  // Tilts of the face at the end, at the far side of the fitted part and between: positive falls away towards
+  // the end.
   const float at_end = std::atan(-c[1]), inner = std::atan(-c[1] - 2 * c[2] * span);
   const float middle = std::atan(-c[1] - c[2] * span);
   if (ends_by_occlusion(in, side, end_m, c[0])) return {ContactKind::kNone, end_m};
-  if (hidden_share <= kSeenFree)
-    return {std::abs(0.5f * (at_end + inner)) <= kMaxWedge ? ContactKind::kFreeEdge : ContactKind::kNone, end_m};
+  if (at_end < -kMaxRise) return {ContactKind::kNone, end_m};
+  const bool no_wedge = std::abs(0.5f * (at_end + inner)) <= kMaxWedge;
+  if (hidden_share <= kSeenFree) return {no_wedge ? ContactKind::kFreeEdge : ContactKind::kNone, end_m};
+  if (hidden_share < kHidden && !no_wedge) return {ContactKind::kNone, end_m};
   const float turn = at_end - inner;
   const float radius = turn > 0.05f ? span / (std::cos(middle) * turn) : 1e3f;
   if (radius < kMaxRadius) return {ContactKind::kCurvedEdge, end_m + side * radius * (1 - std::sin(at_end))};
   const float lean = std::max(0.0f, (in.depth_m - c[0]) * std::tan(-middle));
-  return {std::abs(middle) <= kMaxFlatTilt ? ContactKind::kFlatEdge : ContactKind::kNone, end_m + side * lean};
+  return {std::abs(middle) <= kMaxFlatTilt ? ContactKind::kFlatEdge : ContactKind::kNone,
+          end_m + side * lean};
 }
 
 }  // namespace
@@ -107,9 +119,11 @@ Contact edge_contact(const ContactInput& in, float side, float end_m, float hidd
 Contact find_contact(const ContactInput& in, float side, float end_m, float hidden_share) {
   const EndPoints end = collect_end(in, side, end_m, hidden_share <= kSeenFree ? 0.5f : 0.7f);
   if (end.near < 2) return {ContactKind::kNone, end_m};
-  if (static_cast<float>(end.facing) >= kWallShare * static_cast<float>(end.near)) return {ContactKind::kWall, end_m};
+  if (static_cast<float>(end.facing) >= kWallShare * static_cast<float>(end.near))
+    return {ContactKind::kWall, end_m};
   const Eigen::Vector3f to_sensor = (in.scene.cloud.viewpoint - in.position).normalized();
-  if (side * in.rotation.col(1).dot(to_sensor) > kCameraSide || end.face.size() < 8) return {ContactKind::kNone, end_m};
+  if (side * in.rotation.col(1).dot(to_sensor) > kCameraSide || too_small(in, end.face))
+    return {ContactKind::kNone, end_m};
   return edge_contact(in, side, end_m, hidden_share, end.face);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The graspd authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What a jaw would meet where the object ends on its side: a wall that was seen, an edge whose wall is out of sight, or
-// nothing that can be relied on.
+// What a jaw would meet where the object ends on its side: a wall that was seen, an edge whose wall is out of
+// sight, or nothing that can be relied on.
 #pragma once
 #include <cstdint>
 
@@ -21,8 +21,8 @@ enum class ContactKind : std::uint8_t {
 /// Where the candidate is in the scene, and which of the local points are the object's between the jaws.
 struct ContactInput {
   const SceneView& scene;
-  const LocalPoints& local;                  ///< coordinates relative to position
-  const std::vector<std::uint32_t>& between; ///< positions in local of the object's points between the jaws
+  const LocalPoints& local;                   ///< coordinates relative to position
+  const std::vector<std::uint32_t>& between;  ///< positions in local of the object's points between the jaws
   Eigen::Vector3f position;
   Eigen::Matrix3f rotation;
   float top_m;     ///< smallest depth of those points
@@ -31,15 +31,17 @@ struct ContactInput {
   float min_facing_cosine;
   float finger_width_m;
   float finger_thickness_m;
+  float area_per_point_m2;  ///< of the surface that one of the points stands for
 };
 
 struct Contact {
   ContactKind kind = ContactKind::kNone;
-  float reach_m = 0;  ///< how far out, along the closing axis, the object goes: seen, or carried on into hidden space
+  float reach_m =
+      0;  ///< how far out, along the closing axis, the object goes: seen, or carried on into hidden space
 };
 
-/// side: -1 or +1 along the closing axis; end_m: where the object's seen points end there; hidden_share: of the finger's
-/// volume beside it.
+/// side: -1 or +1 along the closing axis; end_m: where the object's seen points end there; hidden_share: of
+/// the finger's volume beside it.
 [[nodiscard]] Contact find_contact(const ContactInput& in, float side, float end_m, float hidden_share);
 
 }  // namespace graspd

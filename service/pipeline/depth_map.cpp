@@ -27,7 +27,8 @@ Eigen::Matrix3f looking_along(const Eigen::Vector3f& forward) {
 
 }  // namespace
 
-DepthMap::DepthMap(const PointCloud& cloud) : viewpoint_(cloud.viewpoint), to_view_(Eigen::Matrix3f::Identity()) {
+DepthMap::DepthMap(const PointCloud& cloud)
+    : viewpoint_(cloud.viewpoint), to_view_(Eigen::Matrix3f::Identity()) {
   if (cloud.empty()) return;
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
   for (std::size_t i = 0; i < cloud.size(); ++i) sum += (cloud.point(i) - viewpoint_).normalized();
@@ -64,7 +65,8 @@ bool DepthMap::project(const Eigen::Vector3f& p, int& u, int& v, float& depth) c
   const Eigen::Vector3f q = to_view_ * (p - viewpoint_);
   if (!(q.z() > 0)) return false;
   const float fu = focal_ * q.x() / q.z() + center_u_ + 0.5f, fv = focal_ * q.y() / q.z() + center_v_ + 0.5f;
-  if (!(fu >= 0 && fv >= 0 && fu < static_cast<float>(width_) && fv < static_cast<float>(height_))) return false;
+  if (!(fu >= 0 && fv >= 0 && fu < static_cast<float>(width_) && fv < static_cast<float>(height_)))
+    return false;
   u = static_cast<int>(fu);
   v = static_cast<int>(fv);
   depth = q.z();
@@ -79,7 +81,8 @@ void DepthMap::splat(const PointCloud& cloud) {
     int u = 0, v = 0;
     float depth = 0;
     if (!project(cloud.point(i), u, v, depth)) continue;
-    const std::size_t k = static_cast<std::size_t>(v) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(u);
+    const std::size_t k =
+        static_cast<std::size_t>(v) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(u);
     if (depth_[k] != 0 && depth_[k] <= depth) continue;
     depth_[k] = depth;
     point_[k] = static_cast<std::int32_t>(i);
@@ -97,8 +100,10 @@ void DepthMap::close_gaps(int max_gap) {
       if (last >= 0 && u - last > 1 && u - last <= max_gap) {
         const std::size_t from = row + static_cast<std::size_t>(last);
         const std::size_t far = depth_[k] > depth_[from] ? k : from;
-        std::fill(depth_.begin() + static_cast<std::ptrdiff_t>(from) + 1, depth_.begin() + static_cast<std::ptrdiff_t>(k), depth_[far]);
-        std::fill(point_.begin() + static_cast<std::ptrdiff_t>(from) + 1, point_.begin() + static_cast<std::ptrdiff_t>(k), point_[far]);
+        std::fill(depth_.begin() + static_cast<std::ptrdiff_t>(from) + 1,
+                  depth_.begin() + static_cast<std::ptrdiff_t>(k), depth_[far]);
+        std::fill(point_.begin() + static_cast<std::ptrdiff_t>(from) + 1,
+                  point_.begin() + static_cast<std::ptrdiff_t>(k), point_[far]);
       }
       last = u;
     }
@@ -114,7 +119,8 @@ std::int32_t DepthMap::hider(const Eigen::Vector3f& p, float margin_m) const {
   int u = 0, v = 0;
   float depth = 0;
   if (depth_.empty() || !project(p, u, v, depth)) return kFree;
-  const std::size_t k = static_cast<std::size_t>(v) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(u);
+  const std::size_t k =
+      static_cast<std::size_t>(v) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(u);
   return depth_[k] > 0 && depth_[k] < depth - margin_m ? point_[k] : kFree;
 }
 

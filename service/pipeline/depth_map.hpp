@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The graspd authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What the sensor saw: a depth image rendered from the cloud, to tell free space from hidden space. It is made the same
-// way from organized and unorganized clouds.
+// What the sensor saw: a depth image rendered from the cloud, to tell free space from hidden space. It is
+// made the same way from organized and unorganized clouds.
 #pragma once
 #include <Eigen/Geometry>
 #include <cstdint>
@@ -18,7 +18,8 @@ class DepthMap {
 
   static constexpr std::int32_t kFree = -1;
 
-  /// The point of the cloud that hides p from the sensor, or kFree when nothing nearer than margin_m before it does.
+  /// The point of the cloud that hides p from the sensor, or kFree when nothing nearer than margin_m before
+  /// it does.
   [[nodiscard]] std::int32_t hider(const Eigen::Vector3f& p, float margin_m) const;
 
   /// Area of the surface across the line of sight that one pixel covers at p [m2].
@@ -33,8 +34,8 @@ class DepthMap {
   Eigen::Matrix3f to_view_;  // rows: right, down, forward
   int width_ = 0, height_ = 0;
   float focal_ = 1, center_u_ = 0, center_v_ = 0;
-  std::vector<float> depth_;           // 0: nothing seen
-  std::vector<std::int32_t> point_;    // that the depth is of
+  std::vector<float> depth_;         // 0: nothing seen
+  std::vector<std::int32_t> point_;  // that the depth is of
 };
 
 }  // namespace graspd

@@ -31,7 +31,8 @@ Detection detect_handles(const PointCloud& cloud, const Gripper& gripper, const 
   if (cloud.empty()) return detection;
   const WorkspaceResult kept = filter_workspace(cloud, config.workspace);
   done("workspace_filter");
-  detection.status = kept.num_finite == 0 ? DetectionStatus::kNoFinitePoints : DetectionStatus::kNothingInWorkspace;
+  detection.status =
+      kept.num_finite == 0 ? DetectionStatus::kNoFinitePoints : DetectionStatus::kNothingInWorkspace;
   if (kept.cloud.empty()) return detection;
 
   const Surfaces surfaces = find_surfaces(kept.cloud, config, done);

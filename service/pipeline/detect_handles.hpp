@@ -23,18 +23,18 @@ enum class DetectionStatus { kOk, kEmptyCloud, kNoFinitePoints, kNothingInWorksp
 /// Handles, and how the method came to them.
 struct Detection {
   DetectionStatus status = DetectionStatus::kEmptyCloud;
-  std::vector<Handle> handles;  ///< best first, in the cloud's frame
-  int points_in = 0;            ///< of the cloud
-  int points_used = 0;          ///< after workspace filter and downsampling
-  int num_candidates = 0;       ///< gripper poses tried
-  FailureCounts candidate_failures{};  ///< by the first check a candidate failed
-  std::vector<SegmentReport> segments;  ///< what became of each
+  std::vector<Handle> handles;                           ///< best first, in the cloud's frame
+  int points_in = 0;                                     ///< of the cloud
+  int points_used = 0;                                   ///< after workspace filter and downsampling
+  int num_candidates = 0;                                ///< gripper poses tried
+  FailureCounts candidate_failures{};                    ///< by the first check a candidate failed
+  std::vector<SegmentReport> segments;                   ///< what became of each
   [[nodiscard]] FailureCounts segment_failures() const;  ///< segments without a handle, by their reason
 };
 
-/// Finds the handles of a cloud. The result depends on the arguments alone, to the bit, for any number of threads; work
-/// is split over the calling thread's oneTBB arena.
-[[nodiscard]] Detection detect_handles(const PointCloud& cloud, const Gripper& gripper, const DetectConfig& config,
-                                       const StageObserver& observer = {});
+/// Finds the handles of a cloud. The result depends on the arguments alone, to the bit, for any number of
+/// threads; work is split over the calling thread's oneTBB arena.
+[[nodiscard]] Detection detect_handles(const PointCloud& cloud, const Gripper& gripper,
+                                       const DetectConfig& config, const StageObserver& observer = {});
 
 }  // namespace graspd

@@ -11,7 +11,8 @@ namespace graspd {
 
 std::optional<ConfigProblem> SmoothnessConfig::validate() const {
   if (theta_low_deg > theta_high_deg)
-    return ConfigProblem{"theta_low_deg", "the lower threshold is the larger one: expected at most theta_high_deg"};
+    return ConfigProblem{"theta_low_deg",
+                         "the lower threshold is the larger one: expected at most theta_high_deg"};
   return std::nullopt;
 }
 
@@ -26,9 +27,8 @@ std::vector<std::uint8_t> find_edge_points(const Normals& normals, const Neighbo
       for (const std::uint32_t i : neighborhoods.of(s))
         above += nx * normals.x[i] + ny * normals.y[i] + nz * normals.z[i] < cos_high ? 1 : 0;
       const bool has_normal = nx != 0 || ny != 0 || nz != 0;
-      is_edge[s] =
-          !has_normal ||
-          static_cast<float>(above) > config.edge_share * static_cast<float>(neighborhoods.of(s).size());
+      is_edge[s] = !has_normal || static_cast<float>(above) >
+                                      config.edge_share * static_cast<float>(neighborhoods.of(s).size());
     }
   });
   return is_edge;

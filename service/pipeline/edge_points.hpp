@@ -21,7 +21,8 @@ struct SmoothnessConfig {
     v("theta_low_deg", self.theta_low_deg, Range{0, 90},
       "theta_low: below this angle between normals neighbours are one surface [degrees]");
     v("theta_high_deg", self.theta_high_deg, Range{0, 90},
-      "theta_high: above it they are not; between the two only away from edges [degrees]; equal: a single threshold");
+      "theta_high: above it they are not; between the two only away from edges [degrees]; equal: a single "
+      "threshold");
     v("edge_share", self.edge_share, Range{0, 1},
       "k: an edge point has more than this share of its neighbourhood above theta_high");
   }
@@ -31,7 +32,8 @@ struct SmoothnessConfig {
 };
 
 /// 1 for each edge point, else 0. Points without a normal are edge points.
-[[nodiscard]] std::vector<std::uint8_t> find_edge_points(const Normals& normals, const Neighborhoods& neighborhoods,
+[[nodiscard]] std::vector<std::uint8_t> find_edge_points(const Normals& normals,
+                                                         const Neighborhoods& neighborhoods,
                                                          const SmoothnessConfig& config);
 
 }  // namespace graspd

@@ -14,8 +14,9 @@
 namespace graspd {
 namespace {
 
-constexpr float kGridCell = 0.01f;   // of the box queries [m]
-constexpr int kVoxelTolerance = 2;   // stray points a volume may have: counts are absolute, noise does not scale
+constexpr float kGridCell = 0.01f;  // of the box queries [m]
+constexpr int kVoxelTolerance =
+    2;  // stray points a volume may have: counts are absolute, noise does not scale
 constexpr int kPointTolerance = 4;
 
 using Results = std::vector<CheckResult>;
@@ -81,9 +82,9 @@ void count(const Candidate& candidate, Failure failure, CheckedCandidates& out) 
 }
 
 /// The candidates that pass among the voxels; counts the others.
-std::vector<Candidate> prefilter(const SceneView& voxels, const Gripper& gripper, const HandleCheckConfig& config,
-                                 const std::vector<Candidate>& candidates, const ObjectOutlines& outlines,
-                                 CheckedCandidates& out) {
+std::vector<Candidate> prefilter(const SceneView& voxels, const Gripper& gripper,
+                                 const HandleCheckConfig& config, const std::vector<Candidate>& candidates,
+                                 const ObjectOutlines& outlines, CheckedCandidates& out) {
   const Results coarse = check_all(voxels, gripper, config, candidates, &outlines);
   std::vector<Candidate> left;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
@@ -98,9 +99,12 @@ std::vector<Candidate> prefilter(const SceneView& voxels, const Gripper& gripper
 /// An object with this many handles takes no part in a round.
 int enough_before(SearchRound round) {
   switch (round) {
-    case SearchRound::kSurface: return std::numeric_limits<int>::max();
-    case SearchRound::kSurroundings: return 8;
-    case SearchRound::kAllDirections: return 1;
+    case SearchRound::kSurface:
+      return std::numeric_limits<int>::max();
+    case SearchRound::kSurroundings:
+      return 8;
+    case SearchRound::kAllDirections:
+      return 1;
   }
   return 0;
 }
@@ -110,14 +114,25 @@ int enough_before(SearchRound round) {
 CheckedCandidates find_handles(const PointCloud& cloud, const Surfaces& surfaces, const Gripper& gripper,
                                const DetectConfig& config) {
   const DepthMap depth_map(cloud);
-  const std::vector<std::int32_t> object_of_point = spread_to_points(surfaces.objects.of_point, surfaces.voxel_of_point);
+  const std::vector<std::int32_t> object_of_point =
+      spread_to_points(surfaces.objects.of_point, surfaces.voxel_of_point);
   const BoxQuery voxel_query(surfaces.cloud, kGridCell), point_query(cloud, kGridCell);
   const ObjectOutlines outlines(surfaces.cloud, surfaces.objects.of_point, surfaces.objects.num_objects);
   const float area = config.downsample.leaf_size_m * config.downsample.leaf_size_m;
-  const SceneView voxels{surfaces.cloud, voxel_query, surfaces.objects.of_point, surfaces.normals, nullptr,
-                         surfaces.support, depth_map, object_of_point, area, kVoxelTolerance};
-  const SceneView points{cloud, point_query, object_of_point, surfaces.normals, &surfaces.voxel_of_point,
-                         surfaces.support, depth_map, object_of_point, area, kPointTolerance};
+  const SceneView voxels{surfaces.cloud,   voxel_query,     surfaces.objects.of_point,
+                         surfaces.normals, nullptr,         surfaces.support,
+                         depth_map,        object_of_point, area,
+                         kVoxelTolerance};
+  const SceneView points{cloud,
+                         point_query,
+                         object_of_point,
+                         surfaces.normals,
+                         &surfaces.voxel_of_point,
+                         surfaces.support,
+                         depth_map,
+                         object_of_point,
+                         area,
+                         kPointTolerance};
   CheckedCandidates out;
   out.segments = start_reports(surfaces);
   std::vector<int> handles_of_object(static_cast<std::size_t>(surfaces.objects.num_objects));
@@ -125,7 +140,8 @@ CheckedCandidates find_handles(const PointCloud& cloud, const Surfaces& surfaces
     std::vector<std::uint8_t> wanted(handles_of_object.size());
     for (std::size_t k = 0; k < wanted.size(); ++k)
       wanted[k] = handles_of_object[k] < enough_before(round) ? 1 : 0;
-    const std::vector<Candidate> candidates = search_handles(surfaces.search_input(), gripper, config.search, round, wanted);
+    const std::vector<Candidate> candidates =
+        search_handles(surfaces.search_input(), gripper, config.search, round, wanted);
     const std::vector<Candidate> left = prefilter(voxels, gripper, config.check, candidates, outlines, out);
     const Results fine = check_all(points, gripper, config.check, left, nullptr);
     for (std::size_t k = 0; k < left.size(); ++k) {

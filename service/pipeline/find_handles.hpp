@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The graspd authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Searches and checks in rounds: each candidate first against the voxels, which costs little, then against every point.
+// Searches and checks in rounds: each candidate first against the voxels, which costs little, then against
+// every point.
 #pragma once
 #include <vector>
 
@@ -18,7 +19,7 @@ struct CheckedCandidates {
 };
 
 /// cloud: every point of the workspace, that the surfaces were found in.
-[[nodiscard]] CheckedCandidates find_handles(const PointCloud& cloud, const Surfaces& surfaces, const Gripper& gripper,
-                                             const DetectConfig& config);
+[[nodiscard]] CheckedCandidates find_handles(const PointCloud& cloud, const Surfaces& surfaces,
+                                             const Gripper& gripper, const DetectConfig& config);
 
 }  // namespace graspd

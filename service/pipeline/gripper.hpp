@@ -24,10 +24,13 @@ struct Gripper {
     v("name", self.name, Range{}, "name that handle lists carry");
     v("aperture_m", self.aperture_m, Range{0.005, 0.5}, "d: largest distance between the fingers [m]");
     v("finger_width_m", self.finger_width_m, Range{0.001, 0.1}, "w: of a finger along the closing axis [m]");
-    v("finger_thickness_m", self.finger_thickness_m, Range{0.002, 0.1}, "e: of a finger along the major axis [m]");
+    v("finger_thickness_m", self.finger_thickness_m, Range{0.002, 0.1},
+      "e: of a finger along the major axis [m]");
     v("finger_length_m", self.finger_length_m, Range{0.005, 0.5}, "h: from the palm to the fingertips [m]");
-    v("grasp_depth_m", self.grasp_depth_m, Range{0.003, 0.5}, "l: fingertips below the object's visible surface [m]");
-    v("min_gap_m", self.min_gap_m, Range{0.001, 0.2}, "g: smallest free gap beside the object [m], more than w");
+    v("grasp_depth_m", self.grasp_depth_m, Range{0.003, 0.5},
+      "l: fingertips below the object's visible surface [m]");
+    v("min_gap_m", self.min_gap_m, Range{0.001, 0.2},
+      "g: smallest free gap beside the object [m], more than w");
   }
 
   /// The paper's rules between the lengths: g > w and l < h.

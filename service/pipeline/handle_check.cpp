@@ -13,16 +13,19 @@ namespace graspd {
 namespace {
 
 constexpr int kMinOwnPoints = 12;
-constexpr float kAmpleRoom = 0.25f;    // share of the aperture left free from which on more does not matter
-constexpr float kHideMargin = 0.008f;  // a place is hidden when something is nearer to the sensor by this much [m]
+constexpr float kAmpleRoom = 0.25f;  // share of the aperture left free from which on more does not matter
+constexpr float kHideMargin =
+    0.008f;  // a place is hidden when something is nearer to the sensor by this much [m]
 
-float radians(float degrees) { return degrees * std::numbers::pi_v<float> / 180; }
+float radians(float degrees) {
+  return degrees * std::numbers::pi_v<float> / 180;
+}
 
 /// One check in progress: the gripper at the fitted pose, and the points around it relative to that pose.
 class Check {
  public:
-  Check(const SceneView& scene, const Gripper& gripper, const HandleCheckConfig& config, const Candidate& candidate,
-        CheckBuffers& buffers)
+  Check(const SceneView& scene, const Gripper& gripper, const HandleCheckConfig& config,
+        const Candidate& candidate, CheckBuffers& buffers)
       : scene_(scene),
         gripper_(gripper),
         config_(config),
@@ -47,7 +50,7 @@ class Check {
   void collect_between();
   [[nodiscard]] float hidden_share(float f0, float f1, float z0, float z1, bool by_others) const;
   [[nodiscard]] float finger_hidden_share(int side, bool by_others) const;
-  [[nodiscard]] float seen_area() const;
+  [[nodiscard]] float area_per_point() const;
   void set_width_from(const Contact& low, const Contact& high);
 
   const SceneView& scene_;
@@ -65,7 +68,8 @@ class Check {
 
 Failure Check::check_volumes() {
   const Gripper& g = gripper_;
-  const float half = half_opening(), half_hand = 0.5f * g.aperture_m + g.finger_width_m, half_e = 0.5f * g.finger_thickness_m;
+  const float half = half_opening(), half_hand = 0.5f * g.aperture_m + g.finger_width_m,
+              half_e = 0.5f * g.finger_thickness_m;
   const float palm_top = g.grasp_depth_m - g.finger_length_m, hand_top = palm_top - config_.palm_depth_m;
   int own = 0, other = 0, fingers = 0;
   for (std::size_t k = 0; k < local_.size(); ++k) {
@@ -78,11 +82,12 @@ Failure Check::check_volumes() {
   }
   handle_.num_points = own;
   if (own < kMinOwnPoints) return Failure::kTooFewPoints;
-  if (static_cast<float>(own) < config_.min_own_share * static_cast<float>(own + other)) return Failure::kNoGap;
+  if (static_cast<float>(own) < config_.min_own_share * static_cast<float>(own + other))
+    return Failure::kNoGap;
   if (fingers > scene_.tolerance) return Failure::kFingers;
   const auto blocked = [&](float half_width, float z0, float z1) {
-    return scene_.query.has_more(handle_.position, handle_.rotation, {-half_e, -half_width, z0}, {half_e, half_width, z1},
-                                 scene_.tolerance);
+    return scene_.query.has_more(handle_.position, handle_.rotation, {-half_e, -half_width, z0},
+                                 {half_e, half_width, z1}, scene_.tolerance);
   };
   if (blocked(half_hand, hand_top, palm_top)) return Failure::kPalm;
   return blocked(0.5f * g.aperture_m, hand_top - config_.way_m, hand_top) ? Failure::kWay : Failure::kNone;
@@ -95,9 +100,11 @@ Failure Check::check_support() const {
   for (const float a : {-0.5f * gripper_.finger_thickness_m, 0.5f * gripper_.finger_thickness_m})
     for (const float side : {-1.0f, 1.0f}) {
       const auto height = [&](float f, float z) {
-        return scene_.support->plane.height(handle_.position + handle_.rotation * Eigen::Vector3f(a, side * f, z));
+        return scene_.support->plane.height(handle_.position +
+                                            handle_.rotation * Eigen::Vector3f(a, side * f, z));
       };
-      if (std::min(height(half, gripper_.grasp_depth_m), height(half + gripper_.finger_width_m, gripper_.grasp_depth_m)) <
+      if (std::min(height(half, gripper_.grasp_depth_m),
+                   height(half + gripper_.finger_width_m, gripper_.grasp_depth_m)) <
           config_.support_clearance_m)
         return Failure::kSupport;
       if (std::min(height(hand, palm_top), height(hand, palm_top - config_.palm_depth_m - config_.way_m)) < 0)
@@ -114,7 +121,8 @@ void Check::collect_between() {
   const float half = half_opening();
   for (std::size_t k = 0; k < local_.size(); ++k) {
     const float kf = local_.f[k], kz = local_.z[k];
-    if (std::abs(kf) > half || kz > gripper_.grasp_depth_m || kz < gripper_.grasp_depth_m - gripper_.finger_length_m)
+    if (std::abs(kf) > half || kz > gripper_.grasp_depth_m ||
+        kz < gripper_.grasp_depth_m - gripper_.finger_length_m)
       continue;
     if (!is_own(k)) continue;
     between_.push_back(static_cast<std::uint32_t>(k));
@@ -189,7 +197,8 @@ float Check::hidden_share(float f0, float f1, float z0, float z1, bool by_others
       for (int k = 0; k < 8; ++k) {
         const Eigen::Vector3f q(a * gripper_.finger_thickness_m, f0 + (f1 - f0) * s,
                                 z0 + (z1 - z0) * (static_cast<float>(k) + 0.5f) / 8);
-        const std::int32_t hider = scene_.depth_map.hider(handle_.position + handle_.rotation * q, kHideMargin);
+        const std::int32_t hider =
+            scene_.depth_map.hider(handle_.position + handle_.rotation * q, kHideMargin);
         ++samples;
         if (hider == DepthMap::kFree) continue;
         const bool by_own = scene_.depth_map_object[static_cast<std::size_t>(hider)] == candidate_.object;
@@ -204,12 +213,9 @@ float Check::finger_hidden_share(int side, bool by_others) const {
   return hidden_share(sign * half, sign * (half + gripper_.finger_width_m), z0, l, by_others);
 }
 
-float Check::seen_area() const {
-  // Every measured point stands for the patch of surface that its ray meets; the depth map knows how dense rays are.
-  float area = 0;
-  for (const std::uint32_t k : between_)
-    area += scene_.depth_map.ray_area(scene_.cloud.point(local_.index[k]));
-  return scene_.voxel ? area : static_cast<float>(between_.size()) * scene_.voxel_area_m2;
+/// Every measured point stands for the patch of surface that its ray meets; every voxel for its face.
+float Check::area_per_point() const {
+  return scene_.voxel ? scene_.depth_map.ray_area(handle_.position) : scene_.voxel_area_m2;
 }
 
 void Check::set_width_from(const Contact& low, const Contact& high) {
@@ -222,11 +228,21 @@ void Check::set_width_from(const Contact& low, const Contact& high) {
 }
 
 Failure Check::check_contacts() {
-  if (seen_area() < config_.min_contact_area_m2 || gripper_.grasp_depth_m - top_ < config_.min_grip_depth_m)
+  if (area_per_point() * static_cast<float>(between_.size()) < config_.min_contact_area_m2 ||
+      gripper_.grasp_depth_m - top_ < config_.min_grip_depth_m)
     return Failure::kContact;
-  const ContactInput input{scene_, local_, between_, handle_.position, handle_.rotation, top_, gripper_.grasp_depth_m,
-                           end_[1] - end_[0], std::cos(radians(config_.max_facing_angle_deg)), gripper_.finger_width_m,
-                           gripper_.finger_thickness_m};
+  const ContactInput input{scene_,
+                           local_,
+                           between_,
+                           handle_.position,
+                           handle_.rotation,
+                           top_,
+                           gripper_.grasp_depth_m,
+                           end_[1] - end_[0],
+                           std::cos(radians(config_.max_facing_angle_deg)),
+                           gripper_.finger_width_m,
+                           gripper_.finger_thickness_m,
+                           area_per_point()};
   const Contact low = find_contact(input, -1, end_[0], finger_hidden_share(0, false));
   const Contact high = find_contact(input, 1, end_[1], finger_hidden_share(1, false));
   if (low.kind == ContactKind::kNone || high.kind == ContactKind::kNone) return Failure::kContact;
@@ -276,15 +292,16 @@ CheckResult Check::run(const PatchFit& fit) {
 
 std::string_view name(Failure failure) {
   constexpr std::array<std::string_view, kNumFailures + 1> kNames{
-      "too_few_points", "too_wide", "no_gap",  "fingers", "palm", "way",
-      "support",        "silhouettes", "walls", "contact", "unseen", "none"};
+      "too_few_points", "too_wide",    "no_gap", "fingers", "palm",   "way",
+      "support",        "silhouettes", "walls",  "contact", "unseen", "none"};
   return kNames[static_cast<std::size_t>(failure)];
 }
 
 CheckResult check_candidate(const SceneView& scene, const Gripper& gripper, const HandleCheckConfig& config,
                             const Candidate& candidate, CheckBuffers& buffers) {
   PatchFit fit;
-  if (const Failure failure = fit_patch(scene, gripper, config, candidate, buffers, fit); failure != Failure::kNone)
+  if (const Failure failure = fit_patch(scene, gripper, config, candidate, buffers, fit);
+      failure != Failure::kNone)
     return {failure, {}, {}};
   return Check(scene, gripper, config, candidate, buffers).run(fit);
 }

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The graspd authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether the gripper can take a candidate: the volumes of fingers, palm and hand against everything in the cloud, the
-// support, the shape between the jaws, what each jaw would touch, and what the sensor has not seen.
+// Whether the gripper can take a candidate: the volumes of fingers, palm and hand against everything in the
+// cloud, the support, the shape between the jaws, what each jaw would touch, and what the sensor has not
+// seen.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -51,19 +52,26 @@ struct HandleCheckConfig {
 
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& v) {
-    v("clearance_m", self.clearance_m, Range{0, 0.05}, "free on each side of the object when the jaws are around it [m]");
+    v("clearance_m", self.clearance_m, Range{0, 0.05},
+      "free on each side of the object when the jaws are around it [m]");
     v("palm_depth_m", self.palm_depth_m, Range{0, 0.3}, "of the palm behind the fingers [m]");
     v("way_m", self.way_m, Range{0, 1}, "how far back along the approach the hand must be free [m]");
-    v("support_clearance_m", self.support_clearance_m, Range{-0.01, 0.05}, "fingertips stay this high above the support [m]");
-    v("min_own_share", self.min_own_share, Range{0, 1}, "share of the points between the jaws that belong to one object");
-    v("min_grip_depth_m", self.min_grip_depth_m, Range{0.001, 0.1}, "how deep the object must reach between the jaws [m]");
-    v("min_contact_area_m2", self.min_contact_area_m2, Range{0, 0.01}, "how much of it must be seen between the jaws [m2]");
+    v("support_clearance_m", self.support_clearance_m, Range{-0.01, 0.05},
+      "fingertips stay this high above the support [m]");
+    v("min_own_share", self.min_own_share, Range{0, 1},
+      "share of the points between the jaws that belong to one object");
+    v("min_grip_depth_m", self.min_grip_depth_m, Range{0.001, 0.1},
+      "how deep the object must reach between the jaws [m]");
+    v("min_contact_area_m2", self.min_contact_area_m2, Range{0, 0.01},
+      "how much of it must be seen between the jaws [m2]");
     v("max_silhouette_angle_deg", self.max_silhouette_angle_deg, Range{0, 90},
       "between the object's sides and the major axis [degrees]");
     v("max_wall_angle_deg", self.max_wall_angle_deg, Range{0, 90},
       "by which the sides may widen towards the fingertips [degrees]");
-    v("max_facing_angle_deg", self.max_facing_angle_deg, Range{0, 90}, "between a wall's normal and the jaw [degrees]");
-    v("max_hidden_share", self.max_hidden_share, Range{0, 1}, "share of a finger's volume that may be hidden, one finger excepted");
+    v("max_facing_angle_deg", self.max_facing_angle_deg, Range{0, 90},
+      "between a wall's normal and the jaw [degrees]");
+    v("max_hidden_share", self.max_hidden_share, Range{0, 1},
+      "share of a finger's volume that may be hidden, one finger excepted");
   }
 };
 
@@ -90,8 +98,10 @@ struct CheckBuffers {
   std::vector<float> depths, widths;
 };
 
-/// Fits position and width to what is between the jaws, then checks. A pure function of its arguments (buffers aside).
-[[nodiscard]] CheckResult check_candidate(const SceneView& scene, const Gripper& gripper, const HandleCheckConfig& config,
-                                          const Candidate& candidate, CheckBuffers& buffers);
+/// Fits position and width to what is between the jaws, then checks. A pure function of its arguments
+/// (buffers aside).
+[[nodiscard]] CheckResult check_candidate(const SceneView& scene, const Gripper& gripper,
+                                          const HandleCheckConfig& config, const Candidate& candidate,
+                                          CheckBuffers& buffers);
 
 }  // namespace graspd

@@ -10,7 +10,8 @@
 namespace graspd {
 namespace {
 
-/// Angle between two gripper poses [rad]; a gripper turned by half a turn about its approach is the same gripper.
+/// Angle between two gripper poses [rad]; a gripper turned by half a turn about its approach is the same
+/// gripper.
 float angle_between(const Handle& a, const Handle& b) {
   const Eigen::Matrix3f r = a.rotation.transpose() * b.rotation;
   const float same = r.trace(), flipped = -r(0, 0) - r(1, 1) + r(2, 2);
@@ -25,8 +26,9 @@ bool same_place(const Handle& a, const Handle& b, const HandleRankingConfig& con
 }  // namespace
 
 std::vector<Handle> rank_handles(std::vector<RankedHandle> handles, const HandleRankingConfig& config) {
-  std::stable_sort(handles.begin(), handles.end(),
-                   [](const RankedHandle& a, const RankedHandle& b) { return a.handle.score > b.handle.score; });
+  std::stable_sort(handles.begin(), handles.end(), [](const RankedHandle& a, const RankedHandle& b) {
+    return a.handle.score > b.handle.score;
+  });
   std::vector<Handle> kept;
   std::map<int, int> count;
   for (const auto& [handle, object] : handles) {

@@ -22,7 +22,8 @@ struct HandleRankingConfig {
     v("max_per_object", self.max_per_object, Range{1, 1000}, "and this many for one object");
     v("min_score", self.min_score, Range{0, 1}, "handles below it are left out");
     v("distinct_distance_m", self.distinct_distance_m, Range{0, 1}, "handles this close are one place [m]");
-    v("distinct_angle_deg", self.distinct_angle_deg, Range{0, 180}, "when their orientations differ by less than this [degrees]");
+    v("distinct_angle_deg", self.distinct_angle_deg, Range{0, 180},
+      "when their orientations differ by less than this [degrees]");
   }
 };
 
@@ -33,6 +34,7 @@ struct RankedHandle {
 };
 
 /// Best first; ties keep the order of the input.
-[[nodiscard]] std::vector<Handle> rank_handles(std::vector<RankedHandle> handles, const HandleRankingConfig& config);
+[[nodiscard]] std::vector<Handle> rank_handles(std::vector<RankedHandle> handles,
+                                               const HandleRankingConfig& config);
 
 }  // namespace graspd

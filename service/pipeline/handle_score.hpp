@@ -8,7 +8,8 @@
 
 namespace graspd {
 
-/// How far a valid handle is from the limits of the checks, each in [0, 1] with 1 the best, and what the jaws meet.
+/// How far a valid handle is from the limits of the checks, each in [0, 1] with 1 the best, and what the jaws
+/// meet.
 struct HandleMargins {
   std::array<ContactKind, 2> contact{ContactKind::kNone, ContactKind::kNone};  ///< at -y and +y
   float width = 1;        ///< room that the aperture leaves
@@ -19,7 +20,8 @@ struct HandleMargins {
   float central = 1;      ///< how near the jaws are to the middle of the visible object
 };
 
-/// The product of the contacts' reliabilities and of each margin's term, which goes from its weight's complement to 1.
+/// The product of the contacts' reliabilities and of each margin's term, which goes from its weight's
+/// complement to 1.
 [[nodiscard]] float score(const HandleMargins& margins);
 
 }  // namespace graspd

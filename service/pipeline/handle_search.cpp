@@ -15,7 +15,8 @@ namespace {
 
 using Directions = std::vector<Eigen::Vector3f>;
 
-/// Adds a unit vector unless one that differs by less than the angle is there; signless: opposite ones are the same.
+/// Adds a unit vector unless one that differs by less than the angle is there; signless: opposite ones are
+/// the same.
 void add_distinct(Directions& directions, const Eigen::Vector3f& v, float max_cosine, bool signless) {
   if (!(v.norm() > 1e-3f)) return;
   const Eigen::Vector3f unit = v.normalized();
@@ -34,8 +35,8 @@ Eigen::Matrix3f gripper_axes(const Eigen::Vector3f& outward, const Eigen::Vector
   return axes;
 }
 
-/// In-plane axis of the rectangle of least area around a segment: where the outline is cut off by something nearer, it
-/// follows the sides that are left better than the principal axes do.
+/// In-plane axis of the rectangle of least area around a segment: where the outline is cut off by something
+/// nearer, it follows the sides that are left better than the principal axes do.
 Eigen::Vector3f rectangle_axis(const PointCloud& cloud, const Segment& segment) {
   constexpr int kAngles = 45;
   constexpr std::size_t kMaxPoints = 600;
@@ -64,7 +65,8 @@ Eigen::Vector3f rectangle_axis(const PointCloud& cloud, const Segment& segment) 
   return best;
 }
 
-/// One candidate a band of width e along an axis of the segment, from the centroid both ways (paper, section 5).
+/// One candidate a band of width e along an axis of the segment, from the centroid both ways (paper, section
+/// 5).
 void add_bands(const PointCloud& cloud, const Segment& segment, std::int32_t s, std::int32_t object,
                const Eigen::Vector3f& axis, float thickness_m, std::vector<Candidate>& out) {
   struct Band {
@@ -78,7 +80,8 @@ void add_bands(const PointCloud& cloud, const Segment& segment, std::int32_t s, 
   std::vector<Band> bands(static_cast<std::size_t>(2 * half + 1));
   for (const std::uint32_t i : segment.points) {
     const float along = axis.dot(cloud.point(i) - segment.centroid) / thickness_m;
-    Band& band = bands[static_cast<std::size_t>(std::clamp(static_cast<int>(std::floor(along + 0.5f)) + half, 0, 2 * half))];
+    Band& band = bands[static_cast<std::size_t>(
+        std::clamp(static_cast<int>(std::floor(along + 0.5f)) + half, 0, 2 * half))];
     band.sum += cloud.point(i);
     ++band.n;
   }
@@ -89,7 +92,8 @@ void add_bands(const PointCloud& cloud, const Segment& segment, std::int32_t s, 
 }
 
 /// Mean normal of the object's voxels near a seed.
-Eigen::Vector3f face_normal(const SearchInput& in, const std::vector<std::uint32_t>& points, std::uint32_t seed) {
+Eigen::Vector3f face_normal(const SearchInput& in, const std::vector<std::uint32_t>& points,
+                            std::uint32_t seed) {
   constexpr float kRadius = 0.015f;
   const Eigen::Vector3f p = in.cloud.point(seed), n = in.normals.at(seed);
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
@@ -101,7 +105,8 @@ Eigen::Vector3f face_normal(const SearchInput& in, const std::vector<std::uint32
 }
 
 /// For each occupied cell of the spacing the point nearest to the mean of those in it.
-std::vector<std::uint32_t> spread_seeds(const PointCloud& cloud, const std::vector<std::uint32_t>& points, float spacing_m) {
+std::vector<std::uint32_t> spread_seeds(const PointCloud& cloud, const std::vector<std::uint32_t>& points,
+                                        float spacing_m) {
   PointCloud own;
   for (const std::uint32_t i : points) own.push_back(cloud.point(i));
   const CellOrder order = order_by_cell(own, spacing_m);
@@ -133,7 +138,8 @@ class SeedSearch {
     for (const std::uint32_t seed : spread_seeds(in_.cloud, points, config_.seed_spacing_m)) {
       const std::int32_t s = in_.segments.of_point[seed];
       if (s < 0) continue;
-      const Directions outward = approaches(points, seed);
+      Directions outward = approaches(points, seed);
+      if (round == SearchRound::kAllDirections) outward.resize(std::min<std::size_t>(outward.size(), 2));
       for (std::size_t o = 0; o < outward.size(); ++o) {
         const Directions axes = closing_axes(static_cast<std::size_t>(s), outward[o], round);
         // The surface's own normal and axes first (paper, section 5), the support's normal next to them.
@@ -157,14 +163,16 @@ class SeedSearch {
       add_distinct(outward, n + in_.support->plane.normal, max_cosine_, false);
     }
     add_distinct(outward, to_sensor, max_cosine_, false);
-    std::erase_if(outward, [&](const Eigen::Vector3f& o) { return o.dot(to_sensor) < config_.min_facing_cosine; });
+    std::erase_if(outward,
+                  [&](const Eigen::Vector3f& o) { return o.dot(to_sensor) < config_.min_facing_cosine; });
     return outward;
   }
 
-  [[nodiscard]] Directions closing_axes(std::size_t s, const Eigen::Vector3f& outward, SearchRound round) const {
-    if (round == SearchRound::kAllDirections) return all_directions(outward);
+  [[nodiscard]] Directions closing_axes(std::size_t s, const Eigen::Vector3f& outward,
+                                        SearchRound round) const {
     const Segment& segment = in_.segments.list[s];
-    Directions suggested{rectangle_axes_[s], segment.normal.cross(rectangle_axes_[s]), segment.major, segment.minor};
+    Directions suggested{rectangle_axes_[s], segment.normal.cross(rectangle_axes_[s]), segment.major,
+                         segment.minor};
     if (in_.support) {
       suggested.push_back(in_.support->plane.normal);
       suggested.push_back(in_.support->plane.normal.cross(outward));
@@ -176,15 +184,19 @@ class SeedSearch {
       add_distinct(axes, across, max_cosine_, true);
       add_distinct(axes, across.cross(outward), max_cosine_, true);
     }
-    return axes;
+    return round == SearchRound::kAllDirections ? other_directions(outward, axes) : axes;
   }
 
-  [[nodiscard]] Directions all_directions(const Eigen::Vector3f& outward) const {
+  /// Evenly spread closing axes, less those that were tried.
+  [[nodiscard]] Directions other_directions(const Eigen::Vector3f& outward, const Directions& tried) const {
     const Eigen::Vector3f u = outward.unitOrthogonal(), v = outward.cross(u);
     Directions axes;
     for (int i = 0; i < config_.all_directions; ++i) {
-      const float angle = std::numbers::pi_v<float> * static_cast<float>(i) / static_cast<float>(config_.all_directions);
-      axes.push_back(std::cos(angle) * u + std::sin(angle) * v);
+      const float angle =
+          std::numbers::pi_v<float> * static_cast<float>(i) / static_cast<float>(config_.all_directions);
+      const Eigen::Vector3f axis = std::cos(angle) * u + std::sin(angle) * v;
+      const auto same = [&](const Eigen::Vector3f& t) { return std::abs(t.dot(axis)) > max_cosine_; };
+      if (std::none_of(tried.begin(), tried.end(), same)) axes.push_back(axis);
     }
     return axes;
   }
@@ -197,8 +209,9 @@ class SeedSearch {
 
 }  // namespace
 
-std::vector<Candidate> search_handles(const SearchInput& input, const Gripper& gripper, const HandleSearchConfig& config,
-                                      SearchRound round, const std::vector<std::uint8_t>& wanted) {
+std::vector<Candidate> search_handles(const SearchInput& input, const Gripper& gripper,
+                                      const HandleSearchConfig& config, SearchRound round,
+                                      const std::vector<std::uint8_t>& wanted) {
   std::vector<Candidate> candidates;
   if (config.bands && round == SearchRound::kSurface)
     for (std::size_t s = 0; s < input.segments.list.size(); ++s) {
@@ -215,7 +228,8 @@ std::vector<Candidate> search_handles(const SearchInput& input, const Gripper& g
   const SeedSearch search(input, config);
   std::vector<std::vector<Candidate>> found(points.size());
   tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t object) {
-    if (!points[object].empty()) search.add(points[object], static_cast<std::int32_t>(object), round, found[object]);
+    if (!points[object].empty())
+      search.add(points[object], static_cast<std::int32_t>(object), round, found[object]);
   });
   for (const auto& more : found) candidates.insert(candidates.end(), more.begin(), more.end());
   return candidates;

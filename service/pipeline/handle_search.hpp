@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The graspd authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Candidates: gripper poses worth checking. The bands of the paper along each segment's axes, and seeds spread over each
-// object with the approaches and closing axes that its surfaces suggest.
+// Candidates: gripper poses worth checking. The bands of the paper along each segment's axes, and seeds
+// spread over each object with the approaches and closing axes that its surfaces suggest.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -31,7 +31,8 @@ struct HandleSearchConfig {
     v("seed_spacing_m", self.seed_spacing_m, Range{0.005, 1}, "between seeds [m]");
     v("min_facing_cosine", self.min_facing_cosine, Range{0, 1},
       "cosine between the line of sight and the approach; smaller: the hand comes from behind");
-    v("distinct_angle_deg", self.distinct_angle_deg, Range{1, 90}, "directions closer than this are tried once [degrees]");
+    v("distinct_angle_deg", self.distinct_angle_deg, Range{1, 90},
+      "directions closer than this are tried once [degrees]");
     v("all_directions", self.all_directions, Range{0, 180},
       "closing axes over half a turn, tried on objects that have no handle otherwise");
   }
@@ -46,10 +47,11 @@ struct SearchInput {
   const std::optional<Support>& support;
 };
 
-/// Candidates come in rounds, each for the objects on which those before found too few handles: what a surface itself
-/// suggests, then what the support and the line of sight do, then every direction.
+/// Candidates come in rounds, each for the objects on which those before found too few handles: what a
+/// surface itself suggests, then what the support and the line of sight do, then every direction.
 enum class SearchRound : std::uint8_t { kSurface, kSurroundings, kAllDirections };
-inline constexpr std::array kSearchRounds{SearchRound::kSurface, SearchRound::kSurroundings, SearchRound::kAllDirections};
+inline constexpr std::array kSearchRounds{SearchRound::kSurface, SearchRound::kSurroundings,
+                                          SearchRound::kAllDirections};
 
 /// wanted: 1 for each object that candidates are asked for.
 [[nodiscard]] std::vector<Candidate> search_handles(const SearchInput& input, const Gripper& gripper,

@@ -12,10 +12,13 @@
 namespace graspd {
 namespace {
 
-/// Points that can be neighbours of those in one cell, copied together so that distances run over plain arrays.
+/// Points that can be neighbours of those in one cell, copied together so that distances run over plain
+/// arrays.
 struct Candidates {
   std::vector<float> x, y, z;
   std::vector<std::uint32_t> point;
+  std::vector<float> distance;       // squared, to the point that neighbours are looked for
+  std::vector<std::uint32_t> found;  // those within the radius
 
   void clear() {
     x.clear();
@@ -31,7 +34,8 @@ struct Candidates {
   }
 };
 
-/// The nine rows of three cells around a cell. Keys ascend from cell to cell, so that each row's position only moves on.
+/// The nine rows of three cells around a cell. Keys ascend from cell to cell, so that each row's position
+/// only moves on.
 class RowCursor {
  public:
   RowCursor(const CellOrder& order, std::size_t first_cell) : order_(order) {
@@ -63,19 +67,27 @@ class RowCursor {
   std::array<std::ptrdiff_t, 9> positions_{};
 };
 
-/// Appends to the list all candidates within the radius of a point.
-void append_neighbors(const Eigen::Vector3f& s, float radius_squared, const Candidates& candidates,
+/// Appends to the list all candidates within the radius of a point. The distances have a loop of their own,
+/// because the compiler can use vectors for that one alone.
+void append_neighbors(const Eigen::Vector3f& s, float radius_squared, Candidates& candidates,
                       std::vector<std::uint32_t>& list) {
-  const std::size_t before = list.size();
   const std::size_t n = candidates.point.size();
-  list.resize(before + n);
-  std::uint32_t* out = list.data() + before;
+  candidates.distance.resize(n);
+  candidates.found.resize(n);
+  const float sx = s.x(), sy = s.y(), sz = s.z();
+  const float *x = candidates.x.data(), *y = candidates.y.data(), *z = candidates.z.data();
+  float* distance = candidates.distance.data();
   for (std::size_t j = 0; j < n; ++j) {
-    const float dx = candidates.x[j] - s.x(), dy = candidates.y[j] - s.y(), dz = candidates.z[j] - s.z();
-    *out = candidates.point[j];
-    out += (dx * dx + dy * dy + dz * dz <= radius_squared) ? 1 : 0;
+    const float dx = x[j] - sx, dy = y[j] - sy, dz = z[j] - sz;
+    distance[j] = dx * dx + dy * dy + dz * dz;
   }
-  list.resize(static_cast<std::size_t>(out - list.data()));
+  const std::uint32_t* point = candidates.point.data();
+  std::uint32_t *begin = candidates.found.data(), *end = begin;
+  for (std::size_t j = 0; j < n; ++j) {
+    *end = point[j];
+    end += distance[j] <= radius_squared ? 1 : 0;
+  }
+  list.insert(list.end(), begin, end);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The graspd authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The neighbourhood N(s) of every point (paper, equation 1), computed once for normals, edge points and growing.
+// The neighbourhood N(s) of every point (paper, equation 1), computed once for normals, edge points and
+// growing.
 #pragma once
 #include <cstdint>
 #include <span>

@@ -20,8 +20,8 @@ struct Covariances {
 };
 
 /// Covariance of N(s), divided by its trace; all zero when there is no extent.
-void add_covariance(const PointCloud& cloud, std::span<const std::uint32_t> neighborhood, const Eigen::Vector3f& s,
-                    Covariances& c, std::size_t lane) {
+void add_covariance(const PointCloud& cloud, std::span<const std::uint32_t> neighborhood,
+                    const Eigen::Vector3f& s, Covariances& c, std::size_t lane) {
   float x = 0, y = 0, z = 0, xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
   for (const std::uint32_t i : neighborhood) {
     const float dx = cloud.x[i] - s.x(), dy = cloud.y[i] - s.y(), dz = cloud.z[i] - s.z();
@@ -52,8 +52,8 @@ void add_covariance(const PointCloud& cloud, std::span<const std::uint32_t> neig
   c.zz[lane] = zz * scale;
 }
 
-/// Smallest eigenvalues of symmetric matrices of trace 1, by Newton's method on the characteristic polynomial from below
-/// its smallest root, where it converges monotonically.
+/// Smallest eigenvalues of symmetric matrices of trace 1, by Newton's method on the characteristic polynomial
+/// from below its smallest root, where it converges monotonically.
 Lanes smallest_eigenvalues(const Covariances& c) {
   Lanes root{};
   for (std::size_t k = 0; k < kLanes; ++k) {
@@ -96,8 +96,8 @@ void eigenvectors(const Covariances& c, const Lanes& t, Lanes& x, Lanes& y, Lane
   }
 }
 
-void estimate_lanes(const PointCloud& cloud, const Neighborhoods& neighborhoods, std::size_t first, std::size_t num,
-                    Normals& normals) {
+void estimate_lanes(const PointCloud& cloud, const Neighborhoods& neighborhoods, std::size_t first,
+                    std::size_t num, Normals& normals) {
   Covariances c;
   for (std::size_t k = 0; k < num; ++k)
     add_covariance(cloud, neighborhoods.of(first + k), cloud.point(first + k), c, k);
@@ -117,12 +117,13 @@ void estimate_lanes(const PointCloud& cloud, const Neighborhoods& neighborhoods,
 Normals estimate_normals(const PointCloud& cloud, const Neighborhoods& neighborhoods) {
   const std::size_t n = cloud.size();
   Normals normals{std::vector<float>(n), std::vector<float>(n), std::vector<float>(n)};
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, (n + kLanes - 1) / kLanes, 128), [&](const auto& range) {
-    for (std::size_t group = range.begin(); group != range.end(); ++group) {
-      const std::size_t first = group * kLanes;
-      estimate_lanes(cloud, neighborhoods, first, std::min(kLanes, n - first), normals);
-    }
-  });
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, (n + kLanes - 1) / kLanes, 128),
+                    [&](const auto& range) {
+                      for (std::size_t group = range.begin(); group != range.end(); ++group) {
+                        const std::size_t first = group * kLanes;
+                        estimate_lanes(cloud, neighborhoods, first, std::min(kLanes, n - first), normals);
+                      }
+                    });
   return normals;
 }
 

@@ -14,14 +14,16 @@ constexpr float kSpacing = 0.008f;  // between the points that stand for the obj
 
 }  // namespace
 
-ObjectOutlines::ObjectOutlines(const PointCloud& cloud, const std::vector<std::int32_t>& object_of_point, int num_objects)
+ObjectOutlines::ObjectOutlines(const PointCloud& cloud, const std::vector<std::int32_t>& object_of_point,
+                               int num_objects)
     : objects_(static_cast<std::size_t>(num_objects)) {
   std::vector<PointCloud> all(objects_.size());
   for (std::size_t i = 0; i < cloud.size(); ++i)
     if (object_of_point[i] >= 0) all[static_cast<std::size_t>(object_of_point[i])].push_back(cloud.point(i));
   for (std::size_t k = 0; k < all.size(); ++k) {
     const CellOrder order = order_by_cell(all[k], kSpacing);
-    for (std::size_t c = 0; c < order.num_cells(); ++c) objects_[k].push_back(all[k].point(order.cell(c).front()));
+    for (std::size_t c = 0; c < order.num_cells(); ++c)
+      objects_[k].push_back(all[k].point(order.cell(c).front()));
   }
 }
 
@@ -30,7 +32,8 @@ bool ObjectOutlines::clearly_too_wide(const Candidate& candidate, const Gripper&
   const float half_band = 0.5f * gripper.finger_thickness_m;
   // Occupied spacings to both sides of the candidate; bit 32 is its own.
   std::uint64_t occupied = 0;
-  const Eigen::Vector3f a = candidate.rotation.col(0), f = candidate.rotation.col(1), z = candidate.rotation.col(2);
+  const Eigen::Vector3f a = candidate.rotation.col(0), f = candidate.rotation.col(1),
+                        z = candidate.rotation.col(2);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Eigen::Vector3f d = points.point(i) - candidate.position;
     // Only what is surely within the fingers' depth, wherever the top turns out to be.

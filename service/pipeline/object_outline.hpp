@@ -16,8 +16,8 @@ class ObjectOutlines {
   /// object_of_point: -1 for none.
   ObjectOutlines(const PointCloud& cloud, const std::vector<std::int32_t>& object_of_point, int num_objects);
 
-  /// Whether the candidate's object goes on without a gap for clearly more than the aperture along the closing axis,
-  /// within the band and depth that the fingers would take. False says nothing.
+  /// Whether the candidate's object goes on without a gap for clearly more than the aperture along the
+  /// closing axis, within the band and depth that the fingers would take. False says nothing.
   [[nodiscard]] bool clearly_too_wide(const Candidate& candidate, const Gripper& gripper) const;
 
  private:

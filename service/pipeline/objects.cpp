@@ -35,7 +35,8 @@ Borders find_borders(const PointCloud& cloud, const Normals& normals, const Neig
 }
 
 /// Gives each point that has none the object of most of its neighbours.
-std::vector<std::int32_t> filled(const Neighborhoods& neighborhoods, const std::vector<std::uint8_t>& is_support,
+std::vector<std::int32_t> filled(const Neighborhoods& neighborhoods,
+                                 const std::vector<std::uint8_t>& is_support,
                                  const std::vector<std::int32_t>& of_point) {
   std::vector<std::int32_t> result = of_point;
   std::map<std::int32_t, int> votes;
@@ -76,7 +77,8 @@ Objects group_segments(const PointCloud& cloud, const Normals& normals, const Ne
   UnionFind sets(segments.list.size());
   for (const auto& [pair, border] : find_borders(cloud, normals, neighborhoods, segments.of_point)) {
     if (border.pairs < config.min_border_pairs) continue;
-    if (static_cast<float>(border.convex) < config.min_convex_share * static_cast<float>(border.pairs)) continue;
+    if (static_cast<float>(border.convex) < config.min_convex_share * static_cast<float>(border.pairs))
+      continue;
     sets.unite(static_cast<std::uint32_t>(pair.first), static_cast<std::uint32_t>(pair.second));
   }
   Objects objects;
@@ -90,7 +92,8 @@ Objects group_segments(const PointCloud& cloud, const Normals& normals, const Ne
     const std::int32_t s = segments.of_point[i];
     if (s >= 0) objects.of_point[i] = objects.of_segment[static_cast<std::size_t>(s)];
   }
-  for (int round = 0; round < 2; ++round) objects.of_point = filled(neighborhoods, is_support, objects.of_point);
+  for (int round = 0; round < 2; ++round)
+    objects.of_point = filled(neighborhoods, is_support, objects.of_point);
   objects.center = centers(cloud, objects);
   return objects;
 }

@@ -17,8 +17,10 @@ struct ObjectsConfig {
 
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& v) {
-    v("min_convex_share", self.min_convex_share, Range{0, 1}, "segments are one object when this share of their border is convex");
-    v("min_border_pairs", self.min_border_pairs, Range{1, 100000}, "and their border has this many pairs of neighbours");
+    v("min_convex_share", self.min_convex_share, Range{0, 1},
+      "segments are one object when this share of their border is convex");
+    v("min_border_pairs", self.min_border_pairs, Range{1, 100000},
+      "and their border has this many pairs of neighbours");
   }
 };
 
@@ -29,10 +31,12 @@ struct Objects {
   std::vector<Eigen::Vector3f> center;   ///< mean of each object's points
 };
 
-/// A pair of neighbours i, j of two segments is convex when (n_i - n_j) . (p_i - p_j) > 0. Points in no segment take the
-/// object of most of their neighbours, except those of the support (is_support, may be empty).
-[[nodiscard]] Objects group_segments(const PointCloud& cloud, const Normals& normals, const Neighborhoods& neighborhoods,
-                                     const Segments& segments, const std::vector<std::uint8_t>& is_support,
+/// A pair of neighbours i, j of two segments is convex when (n_i - n_j) . (p_i - p_j) > 0. Points in no
+/// segment take the object of most of their neighbours, except those of the support (is_support, may be
+/// empty).
+[[nodiscard]] Objects group_segments(const PointCloud& cloud, const Normals& normals,
+                                     const Neighborhoods& neighborhoods, const Segments& segments,
+                                     const std::vector<std::uint8_t>& is_support,
                                      const ObjectsConfig& config);
 
 }  // namespace graspd

@@ -9,8 +9,9 @@
 namespace graspd {
 namespace {
 
-constexpr float kBin = 0.001f;       // of the profile along the closing axis [m]
-constexpr float kTopWindow = 0.012f; // around the candidate's position, where the top is looked for first [m]
+constexpr float kBin = 0.001f;  // of the profile along the closing axis [m]
+constexpr float kTopWindow =
+    0.012f;  // around the candidate's position, where the top is looked for first [m]
 
 /// Occupancy along the closing axis.
 struct Profile {
@@ -28,8 +29,8 @@ struct Profile {
   [[nodiscard]] int size() const { return static_cast<int>(all.size()); }
 };
 
-/// Walks outwards from a bin over occupied bins; stops before the first gap of min_gap bins. Returns the last occupied
-/// bin, and in next the first occupied one beyond the gap (or the end of the profile).
+/// Walks outwards from a bin over occupied bins; stops before the first gap of min_gap bins. Returns the last
+/// occupied bin, and in next the first occupied one beyond the gap (or the end of the profile).
 int walk(const Profile& profile, int from, int step, int min_gap, int& next) {
   int last = from;
   for (int b = from; b >= 0 && b < profile.size(); b += step) {
@@ -75,11 +76,13 @@ float raise_for_obstacles(const SceneView& scene, const Gripper& g, const Handle
           raise = std::max(raise, (config.support_clearance_m + 0.002f - height) / steepness);
         }
   }
-  std::vector<float>& hits = buffers.depths;  // above the fingertips' depth, where something is in a finger's way
+  std::vector<float>& hits =
+      buffers.depths;  // above the fingertips' depth, where something is in a finger's way
   hits.clear();
   for (std::size_t k = 0; k < local.size(); ++k) {
     const float f = std::abs(local.f[k] - fit.center_m), z = local.z[k] - fit.top_m;
-    if (f > half && f <= half + g.finger_width_m && z <= g.grasp_depth_m && z >= g.grasp_depth_m - g.finger_length_m)
+    if (f > half && f <= half + g.finger_width_m && z <= g.grasp_depth_m &&
+        z >= g.grasp_depth_m - g.finger_length_m)
       hits.push_back(g.grasp_depth_m - z);
   }
   const auto allowed = static_cast<std::size_t>(scene.tolerance / 2);
@@ -91,8 +94,8 @@ float raise_for_obstacles(const SceneView& scene, const Gripper& g, const Handle
   return raise;
 }
 
-/// How far the profile goes: so that a patch as wide as the aperture that begins in the middle shows its gap, and among
-/// all points, where handles are made, the free space beside it.
+/// How far the profile goes: so that a patch as wide as the aperture that begins in the middle shows its gap,
+/// and among all points, where handles are made, the free space beside it.
 float profile_reach(const SceneView& scene, const Gripper& g) {
   return (scene.voxel ? 1.5f : 1.0f) * g.aperture_m + g.min_gap_m;
 }
@@ -112,9 +115,17 @@ Failure find_patch(const SceneView& scene, const Gripper& g, CheckBuffers& buffe
   }
   int start = profile.bin(f0);
   for (int d = 0; d < static_cast<int>(0.5f * g.aperture_m / kBin); ++d) {
-    const auto own_at = [&](int b) { return b >= 0 && b < profile.size() && profile.own[static_cast<std::size_t>(b)] > 0; };
-    if (own_at(start + d)) { start += d; break; }
-    if (own_at(start - d)) { start -= d; break; }
+    const auto own_at = [&](int b) {
+      return b >= 0 && b < profile.size() && profile.own[static_cast<std::size_t>(b)] > 0;
+    };
+    if (own_at(start + d)) {
+      start += d;
+      break;
+    }
+    if (own_at(start - d)) {
+      start -= d;
+      break;
+    }
   }
   if (start < 0 || start >= profile.size() || profile.own[static_cast<std::size_t>(start)] == 0)
     return Failure::kTooFewPoints;
@@ -146,20 +157,24 @@ Failure fit_patch(const SceneView& scene, const Gripper& gripper, const HandleCh
   // As far up as the fingers reach when they go in the least deep.
   const float above = g.finger_length_m - config.min_grip_depth_m + kTopWindow;
   const auto gather = [&](float z) {
-    scene.query.find(candidate.position, candidate.rotation, {-0.5f * g.finger_thickness_m, -reach, z - above},
-                     {0.5f * g.finger_thickness_m, reach, z + g.grasp_depth_m + 2 * kTopWindow}, buffers.local);
+    scene.query.find(
+        candidate.position, candidate.rotation, {-0.5f * g.finger_thickness_m, -reach, z - above},
+        {0.5f * g.finger_thickness_m, reach, z + g.grasp_depth_m + 2 * kTopWindow}, buffers.local);
     buffers.own.resize(buffers.local.size());
     for (std::size_t k = 0; k < buffers.local.size(); ++k)
       buffers.own[k] = scene.object[buffers.local.index[k]] == candidate.object ? 1 : 0;
   };
   gather(0);
   if (!find_top(buffers, -kTopWindow, kTopWindow, fit.top_m)) return Failure::kTooFewPoints;
-  if (const Failure failure = find_patch(scene, g, buffers, 0, fit); failure != Failure::kNone) return failure;
-  // The top of the whole patch may be higher than where the search began; then the depths below it are others.
+  if (const Failure failure = find_patch(scene, g, buffers, 0, fit); failure != Failure::kNone)
+    return failure;
+  // The top of the whole patch may be higher than where the search began; then the depths below it are
+  // others.
   const float low = fit.center_m - 0.5f * fit.width_m, high = low + fit.width_m;
   if (!find_top(buffers, low, high, fit.top_m)) return Failure::kTooFewPoints;
   if (fit.top_m < -kTopWindow) gather(fit.top_m);
-  if (const Failure failure = find_patch(scene, g, buffers, fit.center_m, fit); failure != Failure::kNone) return failure;
+  if (const Failure failure = find_patch(scene, g, buffers, fit.center_m, fit); failure != Failure::kNone)
+    return failure;
   const float raise = raise_for_obstacles(scene, g, config, candidate, buffers, fit);
   if (raise > g.grasp_depth_m - config.min_grip_depth_m) return Failure::kFingers;
   fit.top_m -= raise;

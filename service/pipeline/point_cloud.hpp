@@ -8,8 +8,8 @@
 
 namespace graspd {
 
-/// Points as a structure of arrays [m], in the cloud's frame. Missing points are NaN. Holds coordinates alone: colours
-/// and labels never reach the pipeline.
+/// Points as a structure of arrays [m], in the cloud's frame. Missing points are NaN. Holds coordinates
+/// alone: colours and labels never reach the pipeline.
 struct PointCloud {
   std::vector<float> x, y, z;
   /// Organized clouds: size() == width * height, row by row. Unorganized: height is 1.

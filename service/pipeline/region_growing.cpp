@@ -10,10 +10,13 @@
 namespace graspd {
 namespace {
 
-float cos_deg(float angle_deg) { return std::cos(angle_deg * std::numbers::pi_v<float> / 180); }
+float cos_deg(float angle_deg) {
+  return std::cos(angle_deg * std::numbers::pi_v<float> / 180);
+}
 
-UnionFind link(const Normals& normals, const Neighborhoods& neighborhoods, const std::vector<std::uint8_t>& is_edge,
-               const std::vector<std::uint8_t>& excluded, const SmoothnessConfig& config) {
+UnionFind link(const Normals& normals, const Neighborhoods& neighborhoods,
+               const std::vector<std::uint8_t>& is_edge, const std::vector<std::uint8_t>& excluded,
+               const SmoothnessConfig& config) {
   const float cos_low = cos_deg(config.theta_low_deg), cos_high = cos_deg(config.theta_high_deg);
   UnionFind sets(normals.size());
   for (std::uint32_t s = 0; s < normals.size(); ++s) {
@@ -23,7 +26,8 @@ UnionFind link(const Normals& normals, const Neighborhoods& neighborhoods, const
       if (p <= s || (!excluded.empty() && excluded[p])) continue;
       const std::uint32_t other = sets.find(p);
       if (other == root) continue;
-      const float cosine = normals.x[s] * normals.x[p] + normals.y[s] * normals.y[p] + normals.z[s] * normals.z[p];
+      const float cosine =
+          normals.x[s] * normals.x[p] + normals.y[s] * normals.y[p] + normals.z[s] * normals.z[p];
       const float least = is_edge[s] | is_edge[p] ? cos_low : cos_high;
       if (cosine <= least) continue;
       sets.unite(root, other);
@@ -34,8 +38,8 @@ UnionFind link(const Normals& normals, const Neighborhoods& neighborhoods, const
 }
 
 /// Label of the neighbour with the most similar normal that has one, or -1.
-std::int32_t most_similar_label(const Normals& normals, std::span<const std::uint32_t> neighborhood, std::size_t s,
-                                const std::vector<std::int32_t>& labels) {
+std::int32_t most_similar_label(const Normals& normals, std::span<const std::uint32_t> neighborhood,
+                                std::size_t s, const std::vector<std::int32_t>& labels) {
   std::int32_t label = -1;
   float best = -2;
   for (const std::uint32_t p : neighborhood) {
@@ -49,12 +53,14 @@ std::int32_t most_similar_label(const Normals& normals, std::span<const std::uin
 
 }  // namespace
 
-Labels grow_regions(const Normals& normals, const Neighborhoods& neighborhoods, const std::vector<std::uint8_t>& is_edge,
-                    const std::vector<std::uint8_t>& excluded, const SmoothnessConfig& config) {
+Labels grow_regions(const Normals& normals, const Neighborhoods& neighborhoods,
+                    const std::vector<std::uint8_t>& is_edge, const std::vector<std::uint8_t>& excluded,
+                    const SmoothnessConfig& config) {
   const std::size_t n = normals.size();
   const auto takes_part = [&excluded](std::size_t s) { return excluded.empty() || !excluded[s]; };
   UnionFind sets = link(normals, neighborhoods, is_edge, excluded, config);
-  std::vector<std::uint8_t> has_surface(n);  // by representative: the component has a point that is no edge point
+  std::vector<std::uint8_t> has_surface(
+      n);  // by representative: the component has a point that is no edge point
   for (std::uint32_t s = 0; s < n; ++s)
     if (!is_edge[s] && takes_part(s)) has_surface[sets.find(s)] = 1;
 
@@ -68,7 +74,8 @@ Labels grow_regions(const Normals& normals, const Neighborhoods& neighborhoods, 
   }
   result.of_point = grown;
   for (std::size_t s = 0; s < n; ++s)
-    if (grown[s] < 0 && takes_part(s)) result.of_point[s] = most_similar_label(normals, neighborhoods.of(s), s, grown);
+    if (grown[s] < 0 && takes_part(s))
+      result.of_point[s] = most_similar_label(normals, neighborhoods.of(s), s, grown);
   return result;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The graspd authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What candidates are checked against: one resolution of the frame with everything the earlier stages found out about it.
+// What candidates are checked against: one resolution of the frame with everything the earlier stages found
+// out about it.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -23,12 +24,14 @@ struct SceneView {
   const std::optional<Support>& support;
   const DepthMap& depth_map;
   const std::vector<std::int32_t>& depth_map_object;  ///< object of each point that the depth map was made of
-  float voxel_area_m2 = 0;                  ///< of the surface that one voxel stands for
-  int tolerance = 0;                        ///< stray points allowed in a volume that must be free
+  float voxel_area_m2 = 0;                            ///< of the surface that one voxel stands for
+  int tolerance = 0;                                  ///< stray points allowed in a volume that must be free
 
   [[nodiscard]] std::uint32_t voxel_of(std::uint32_t point) const { return voxel ? (*voxel)[point] : point; }
   [[nodiscard]] Eigen::Vector3f normal(std::uint32_t point) const { return normals.at(voxel_of(point)); }
-  [[nodiscard]] bool is_support(std::uint32_t point) const { return support && support->is_support[voxel_of(point)]; }
+  [[nodiscard]] bool is_support(std::uint32_t point) const {
+    return support && support->is_support[voxel_of(point)];
+  }
 };
 
 }  // namespace graspd

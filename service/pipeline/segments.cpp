@@ -29,7 +29,8 @@ void set_axes(const PointCloud& cloud, Segment& segment) {
 
 }  // namespace
 
-Segments build_segments(const PointCloud& cloud, const Labels& labels, float leaf_size_m, const SegmentsConfig& config) {
+Segments build_segments(const PointCloud& cloud, const Labels& labels, float leaf_size_m,
+                        const SegmentsConfig& config) {
   std::vector<std::uint32_t> count(static_cast<std::size_t>(labels.num_labels));
   for (const std::int32_t label : labels.of_point)
     if (label >= 0) ++count[static_cast<std::size_t>(label)];
@@ -49,7 +50,8 @@ Segments build_segments(const PointCloud& cloud, const Labels& labels, float lea
     segments.of_point[i] = s;
     if (s >= 0) segments.list[static_cast<std::size_t>(s)].points.push_back(i);
   }
-  tbb::parallel_for(std::size_t{0}, segments.list.size(), [&](std::size_t s) { set_axes(cloud, segments.list[s]); });
+  tbb::parallel_for(std::size_t{0}, segments.list.size(),
+                    [&](std::size_t s) { set_axes(cloud, segments.list[s]); });
   return segments;
 }
 

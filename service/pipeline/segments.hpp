@@ -16,7 +16,8 @@ struct SegmentsConfig {
 
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& v) {
-    v("min_area_m2", self.min_area_m2, Range{0, 1}, "smaller surfaces are obstacles only [m2]; 3.6e-4 is 40 voxels of 3 mm");
+    v("min_area_m2", self.min_area_m2, Range{0, 1},
+      "smaller surfaces are obstacles only [m2]; 3.6e-4 is 40 voxels of 3 mm");
   }
 };
 

@@ -13,12 +13,14 @@ struct SmoothingConfig {
 
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& v) {
-    v("iterations", self.iterations, Range{0, 20}, "0: no smoothing; each moves points by at most half the neighbourhood's radius");
+    v("iterations", self.iterations, Range{0, 20},
+      "0: no smoothing; each moves points by at most half the neighbourhood's radius");
   }
 };
 
-/// One iteration. Neighbours whose normal differs by more than 45 degrees do not count, so that edges stay sharp; points
-/// without a normal stay where they are.
-[[nodiscard]] PointCloud smooth(const PointCloud& cloud, const Normals& normals, const Neighborhoods& neighborhoods);
+/// One iteration. Neighbours whose normal differs by more than 45 degrees do not count, so that edges stay
+/// sharp; points without a normal stay where they are.
+[[nodiscard]] PointCloud smooth(const PointCloud& cloud, const Normals& normals,
+                                const Neighborhoods& neighborhoods);
 
 }  // namespace graspd

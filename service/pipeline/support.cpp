@@ -42,8 +42,8 @@ int plane_score(const Sample& sample, const Plane& plane, float thickness_m, flo
   return inliers - behind;
 }
 
-std::optional<Plane> plane_through(const Sample& sample, const std::array<std::size_t, 3>& at, float min_cosine,
-                                   const Eigen::Vector3f& viewpoint) {
+std::optional<Plane> plane_through(const Sample& sample, const std::array<std::size_t, 3>& at,
+                                   float min_cosine, const Eigen::Vector3f& viewpoint) {
   const Eigen::Vector3f& a = sample.points[at[0]];
   Eigen::Vector3f normal = (sample.points[at[1]] - a).cross(sample.points[at[2]] - a);
   if (normal.norm() < 1e-6f) return std::nullopt;
@@ -59,7 +59,8 @@ std::optional<Plane> best_hypothesis(const Sample& sample, const SupportConfig& 
   if (sample.points.size() < 3) return std::nullopt;
   std::minstd_rand random(1);
   std::vector<Plane> planes;
-  for (int trial = 0; trial < 20 * config.hypotheses && static_cast<int>(planes.size()) < config.hypotheses; ++trial) {
+  for (int trial = 0; trial < 20 * config.hypotheses && static_cast<int>(planes.size()) < config.hypotheses;
+       ++trial) {
     std::array<std::size_t, 3> at{};
     for (std::size_t& i : at) i = random() % sample.points.size();
     if (const auto plane = plane_through(sample, at, min_cosine, viewpoint)) planes.push_back(*plane);
@@ -74,8 +75,8 @@ std::optional<Plane> best_hypothesis(const Sample& sample, const SupportConfig& 
 }
 
 /// Least squares over the inliers; returns their number and sets sigma.
-std::size_t refine(const PointCloud& cloud, const Normals& normals, float thickness_m, float min_cosine, Plane& plane,
-                   float& sigma_m) {
+std::size_t refine(const PointCloud& cloud, const Normals& normals, float thickness_m, float min_cosine,
+                   Plane& plane, float& sigma_m) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
   std::size_t n = 0;

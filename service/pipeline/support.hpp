@@ -32,25 +32,27 @@ struct SupportConfig {
     v("enabled", self.enabled, Range{}, "look for the plane that objects stand on");
     v("min_area_m2", self.min_area_m2, Range{0.001, 100}, "smallest visible area of a support [m2]");
     v("thickness_m", self.thickness_m, Range{0.001, 0.1}, "points this close to the plane belong to it [m]");
-    v("thickness_per_m", self.thickness_per_m, Range{0, 0.1}, "more for each metre beyond 0.8 m from the sensor [m]");
-    v("max_normal_angle_deg", self.max_normal_angle_deg, Range{1, 89}, "between a point's normal and the plane's [degrees]");
+    v("thickness_per_m", self.thickness_per_m, Range{0, 0.1},
+      "more for each metre beyond 0.8 m from the sensor [m]");
+    v("max_normal_angle_deg", self.max_normal_angle_deg, Range{1, 89},
+      "between a point's normal and the plane's [degrees]");
     v("hypotheses", self.hypotheses, Range{10, 10000}, "planes tried by RANSAC");
   }
 };
 
 struct Support {
   Plane plane;
-  float sigma_m = 0;                    ///< scatter of its points about the plane
-  std::vector<std::uint8_t> is_support; ///< 1 for each point that belongs to the plane or lies below it
+  float sigma_m = 0;                     ///< scatter of its points about the plane
+  std::vector<std::uint8_t> is_support;  ///< 1 for each point that belongs to the plane or lies below it
 };
 
-/// RANSAC over points and normals, then least squares. leaf_size_m: of the voxels, to turn counts into areas. The same
-/// cloud gives the same plane: the random numbers are seeded by a constant.
-[[nodiscard]] std::optional<Support> find_support(const PointCloud& cloud, const Normals& normals, float leaf_size_m,
-                                                  const SupportConfig& config);
+/// RANSAC over points and normals, then least squares. leaf_size_m: of the voxels, to turn counts into areas.
+/// The same cloud gives the same plane: the random numbers are seeded by a constant.
+[[nodiscard]] std::optional<Support> find_support(const PointCloud& cloud, const Normals& normals,
+                                                  float leaf_size_m, const SupportConfig& config);
 
 /// How far from the plane points at p still count as its own [m].
-[[nodiscard]] float support_thickness(const Eigen::Vector3f& p, const Eigen::Vector3f& viewpoint, float sigma_m,
-                                      const SupportConfig& config);
+[[nodiscard]] float support_thickness(const Eigen::Vector3f& p, const Eigen::Vector3f& viewpoint,
+                                      float sigma_m, const SupportConfig& config);
 
 }  // namespace graspd

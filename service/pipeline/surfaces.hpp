@@ -29,6 +29,7 @@ struct Surfaces {
 };
 
 /// All points must be finite, and there must be at least one.
-[[nodiscard]] Surfaces find_surfaces(const PointCloud& cloud, const DetectConfig& config, const StageObserver& done);
+[[nodiscard]] Surfaces find_surfaces(const PointCloud& cloud, const DetectConfig& config,
+                                     const StageObserver& done);
 
 }  // namespace graspd

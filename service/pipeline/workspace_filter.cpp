@@ -28,7 +28,8 @@ WorkspaceResult filter_workspace(const PointCloud& cloud, const WorkspaceFilterC
     ++result.num_finite;
     const float range = (p - cloud.viewpoint).squaredNorm();
     const Eigen::Vector3f q = config.T_box_cloud * p;
-    const bool inside = (q.array() >= config.min_m.array()).all() && (q.array() <= config.max_m.array()).all();
+    const bool inside =
+        (q.array() >= config.min_m.array()).all() && (q.array() <= config.max_m.array()).all();
     kept.x[n] = p.x();
     kept.y[n] = p.y();
     kept.z[n] = p.z();

@@ -10,7 +10,8 @@
 
 namespace graspd {
 
-/// A box in the frame that handles are published in (the robot's when extrinsics are given, else the cloud's), and a range.
+/// A box in the frame that handles are published in (the robot's when extrinsics are given, else the
+/// cloud's), and a range.
 struct WorkspaceFilterConfig {
   Eigen::Vector3f min_m{-10, -10, -10};
   Eigen::Vector3f max_m{10, 10, 10};
@@ -21,7 +22,8 @@ struct WorkspaceFilterConfig {
 
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& v) {
-    v("min_m", self.min_m, Range{-1000, 1000}, "smallest x, y, z [m], in the frame that handles are published in");
+    v("min_m", self.min_m, Range{-1000, 1000},
+      "smallest x, y, z [m], in the frame that handles are published in");
     v("max_m", self.max_m, Range{-1000, 1000}, "largest x, y, z [m]");
     v("min_range_m", self.min_range_m, Range{0, 100}, "smallest distance from the sensor [m]");
     v("max_range_m", self.max_range_m, Range{0, 100}, "largest distance from the sensor [m]");
