@@ -19,6 +19,7 @@ constexpr auto kLongestWait = 50ms;  // a signal is seen after that at the lates
 constexpr auto kFinishLimit =
     1200ms;  // with kCancelLimit less than the two seconds that a supervisor is promised
 constexpr auto kCancelLimit = 400ms;
+constexpr auto kPublishLimit = 100ms;
 
 }  // namespace
 
@@ -73,6 +74,10 @@ bool Daemon::stop() {
   if (!finished) {
     drop_all();
     finished = queue_.wait_idle(kCancelLimit);
+  }
+  if (!finished) {
+    answer_for_workers();
+    finished = queue_.wait_idle(kPublishLimit);  // one may be publishing what was just released
   }
   publish_status(status_t::STOPPING);
   return finished;
@@ -131,12 +136,25 @@ void Daemon::take(Stream& stream, const Packet& packet) {
 }
 
 void Daemon::work(Job job) {
+  {
+    const std::lock_guard lock(in_work_mutex_);
+    in_work_.insert(&job);
+  }
   Answer answer;
   // Isolated: while this frame waits for its helpers its worker must not begin another one.
   arena_.execute([&] {
     tbb::this_task_arena::isolate([&] { answer = job.stream->processor.process(job.message, cancelled_); });
   });
+  {
+    const std::lock_guard lock(in_work_mutex_);
+    in_work_.erase(&job);
+  }
   job.stream->gate.release(job.ticket, std::move(answer));
+}
+
+void Daemon::answer_for_workers() {
+  const std::lock_guard lock(in_work_mutex_);
+  for (const Job* job : in_work_) drop(*job, "graspd stops");
 }
 
 void Daemon::drop(const Job& job, const std::string& why) {

@@ -11,7 +11,9 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,8 +39,9 @@ class Daemon {
   /// Waits for one message, at most a twentieth of a second, and publishes the status when a second is over.
   LcmBus::Wait step();
 
-  /// Takes no more messages, finishes or drops those that have been taken, publishes the last status. False
-  /// when a frame is still in work after 1.6 s: then the destructor would wait for it.
+  /// Takes no more messages, finishes or drops those that have been taken, publishes the last status. Each
+  /// has its answer then. False when a worker is still at a frame after 1.4 s: the destructor would wait for
+  /// it.
   [[nodiscard]] bool stop();
 
  private:
@@ -50,6 +53,7 @@ class Daemon {
   void work(Job job);
   void publish(Stream& stream, Answer answer);
   void drop(const Job& job, const std::string& why);
+  void answer_for_workers();
   void publish_status(std::int8_t state);
   [[nodiscard]] bool is_own_channel(const std::string& channel) const;
   [[nodiscard]] Clock::TimePoint arrival_of(const Packet& packet) const;
@@ -67,6 +71,8 @@ class Daemon {
   std::int64_t ignored_ = 0;
   Clock::TimePoint next_status_;
   std::atomic<bool> cancelled_ = false;
+  std::mutex in_work_mutex_;
+  std::set<const Job*> in_work_;
   FrameQueue<Job> queue_;
   WorkerPool<Job> workers_;  // last: its threads use all of the above
 };

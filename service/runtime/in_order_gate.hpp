@@ -26,10 +26,11 @@ class InOrderGate {
     return next_ticket_++;
   }
 
-  /// Publishes the result now if it is its turn, with those that waited behind it.
+  /// Publishes the result now if it is its turn, with those that waited behind it. Of several releases of a
+  /// ticket the first one counts: so a frame that takes too long can be answered for its worker.
   void release(Ticket ticket, Result result) {
     std::unique_lock lock(mutex_);
-    waiting_.emplace(ticket, std::move(result));
+    if (ticket < next_out_ || !waiting_.try_emplace(ticket, std::move(result)).second) return;
     if (publishing_) return;  // the thread that is at it goes on with this one
     publishing_ = true;
     while (!waiting_.empty() && waiting_.begin()->first == next_out_) {
