@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/daemon/frame_processor.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstring>
+#include <limits>
+#include <set>
+#include <string>
+
+#include "service/transport/cloud_decoder.hpp"
+#include "tests/unit/daemon/messages.hpp"
+#include "tests/unit/runtime/manual_clock.hpp"
+
+namespace graspd {
+namespace {
+
+class FrameProcessorTest : public testing::Test {
+ protected:
+  [[nodiscard]] FrameMessage message(const Bytes& bytes) const {
+    return {peek_header(bytes, limits_), bytes, clock_.now()};
+  }
+  [[nodiscard]] Answer process(const Bytes& bytes) const {
+    return FrameProcessor(source_, "CLOUD_7", limits_, clock_).process(message(bytes), running_);
+  }
+
+  SourceConfig source_;
+  DecodeLimits limits_;
+  ManualClock clock_;
+  const std::atomic<bool> running_{false};  // not cancelled
+};
+
+void expect_consistent(const handle_list_t& list) {
+  EXPECT_EQ(list.source_channel, "CLOUD_7");
+  EXPECT_EQ(list.gripper.name, "paper_80mm");
+  EXPECT_EQ(list.num_handles, static_cast<int>(list.handles.size()));
+  EXPECT_EQ(list.num_stages, static_cast<int>(list.stages.size()));
+  EXPECT_FALSE(list.status_text.empty());
+  EXPECT_EQ(list.status_text.find('\n'), std::string::npos);
+}
+
+TEST_F(FrameProcessorTest, ABoxOnATable) {
+  const Answer answer = process(cloud_message(5, box_on_table()));
+  EXPECT_EQ(answer.outcome, Outcome::kProcessed);
+  expect_consistent(answer.list);
+  EXPECT_EQ(answer.list.status, +handle_list_t::OK) << answer.list.status_text;
+  EXPECT_EQ(answer.list.status_text, std::to_string(answer.list.num_handles) + " handles");
+  EXPECT_GT(answer.list.num_handles, 0);
+  EXPECT_EQ(answer.list.seq, 5);
+  EXPECT_EQ(answer.list.utime, 1'000'005);
+  EXPECT_EQ(answer.list.frame_name, "camera");
+  EXPECT_EQ(answer.list.points_in, 201 * 201);
+  ASSERT_GT(answer.list.num_stages, 2);
+  EXPECT_EQ(answer.list.stages[0].stage, "decode");
+  std::set<std::string> names;
+  for (const stage_time_t& stage : answer.list.stages)
+    EXPECT_TRUE(names.insert(stage.stage).second) << stage.stage;
+}
+
+TEST_F(FrameProcessorTest, HandlesComeOutInTheNamedFrame) {
+  const Bytes bytes = cloud_message(1, box_on_table());
+  const Answer plain = process(bytes);
+  source_.sensor_pose.frame_name = "base";
+  source_.sensor_pose.position_m = {1, 2, 3};
+  source_.detect.workspace.T_box_cloud = source_.sensor_pose.T_target_cloud();
+  const Answer moved = process(bytes);
+  EXPECT_EQ(moved.list.frame_name, "base");
+  ASSERT_EQ(moved.list.num_handles, plain.list.num_handles);
+  for (std::size_t i = 0; i < plain.list.handles.size(); ++i) {
+    for (int axis = 0; axis < 3; ++axis)
+      EXPECT_NEAR(moved.list.handles[i].position[axis], plain.list.handles[i].position[axis] + axis + 1,
+                  1e-5);
+  }
+}
+
+TEST_F(FrameProcessorTest, CloudsWithNothingInThem) {
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  const auto status = [&](const Bytes& bytes) {
+    const Answer answer = process(bytes);
+    EXPECT_EQ(answer.outcome, Outcome::kProcessed);
+    expect_consistent(answer.list);
+    EXPECT_EQ(answer.list.num_handles, 0);
+    EXPECT_EQ(answer.list.seq, 3);
+    return answer.list.status;
+  };
+  EXPECT_EQ(status(cloud_message(3, PointCloud{})), +handle_list_t::EMPTY_CLOUD);
+  EXPECT_EQ(status(cloud_message(3, uniform_cloud(100, kNan))), +handle_list_t::NO_FINITE_POINTS);
+  EXPECT_EQ(status(cloud_message(3, uniform_cloud(100, 1e6f))), +handle_list_t::NOTHING_IN_WORKSPACE);
+  EXPECT_EQ(status(cloud_message(3, uniform_cloud(100, 0.5f))), +handle_list_t::NO_HANDLES);
+  EXPECT_EQ(status(depth_message(3, 0)), +handle_list_t::NO_FINITE_POINTS);
+  EXPECT_EQ(status(depth_message(3, 1)), +handle_list_t::NO_HANDLES);
+}
+
+TEST_F(FrameProcessorTest, MessagesThatAreNone) {
+  const Answer none = process({});
+  EXPECT_EQ(none.outcome, Outcome::kRefused);
+  EXPECT_EQ(none.refusal, RefusalReason::kTruncated);
+  EXPECT_EQ(none.list.status, +handle_list_t::REFUSED);
+  EXPECT_EQ(none.list.seq, -1);
+  expect_consistent(none.list);
+
+  Bytes truncated = cloud_message(9, box_on_table());
+  truncated.pop_back();
+  const Answer answer = process(truncated);
+  EXPECT_EQ(answer.outcome, Outcome::kRefused);
+  EXPECT_EQ(answer.list.seq, 9);
+  EXPECT_EQ(answer.list.frame_name, "camera");
+  EXPECT_EQ(answer.list.status_text.find(std::string(name(*answer.refusal)) + ": "), 0u);
+}
+
+TEST_F(FrameProcessorTest, TooManyPointsAreRefused) {
+  limits_.max_points = 100;
+  EXPECT_EQ(process(cloud_message(1, uniform_cloud(100, 0.5f))).outcome, Outcome::kProcessed);
+  const Answer answer = process(cloud_message(1, uniform_cloud(101, 0.5f)));
+  EXPECT_EQ(answer.outcome, Outcome::kRefused);
+  EXPECT_EQ(answer.refusal, RefusalReason::kTooLarge);
+}
+
+TEST_F(FrameProcessorTest, ACancelledFrameIsDropped) {
+  const std::atomic<bool> cancelled{true};
+  const FrameProcessor processor(source_, "CLOUD_7", limits_, clock_);
+  const Answer answer = processor.process(message(cloud_message(4, box_on_table())), cancelled);
+  EXPECT_EQ(answer.outcome, Outcome::kDropped);
+  EXPECT_EQ(answer.list.status, +handle_list_t::OVERLOADED);
+  EXPECT_EQ(answer.list.seq, 4);
+  EXPECT_EQ(answer.list.num_handles, 0);
+  expect_consistent(answer.list);
+}
+
+/// Gives the time until it is asked once too often: an exception in the middle of a frame.
+class FailingClock final : public Clock {
+ public:
+  [[nodiscard]] TimePoint now() const override {
+    if (++calls_ > 2) throw std::runtime_error("out of time");
+    return {};
+  }
+  [[nodiscard]] std::int64_t wall_utime() const override { return 0; }
+
+ private:
+  mutable int calls_ = 0;
+};
+
+TEST_F(FrameProcessorTest, AnExceptionBecomesAFailedAnswer) {
+  const FailingClock failing;
+  const FrameProcessor processor(source_, "CLOUD_7", limits_, failing);
+  const Answer answer = processor.process(message(cloud_message(6, box_on_table())), running_);
+  EXPECT_EQ(answer.outcome, Outcome::kFailed);
+  EXPECT_EQ(answer.list.status, +handle_list_t::FAILED);
+  EXPECT_EQ(answer.list.status_text, "out of time");
+  EXPECT_EQ(answer.list.seq, 6);
+  expect_consistent(answer.list);
+}
+
+}  // namespace
+}  // namespace graspd

@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/daemon/health.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <thread>
+#include <vector>
+
+#include "tests/unit/runtime/manual_clock.hpp"
+
+namespace graspd {
+namespace {
+
+using namespace std::chrono_literals;
+
+Answer answer(Outcome outcome, std::optional<RefusalReason> refusal = std::nullopt, const char* text = "") {
+  Answer a;
+  a.outcome = outcome;
+  a.refusal = refusal;
+  a.list.status_text = text;
+  return a;
+}
+
+TEST(ChannelHealth, NothingYet) {
+  ManualClock clock;
+  const source_status_t status = ChannelHealth().snapshot(clock.now());
+  EXPECT_EQ(
+      status.received + status.processed + status.dropped + status.refused + status.pending + status.lost, 0);
+  EXPECT_EQ(status.latency_p50, 0);
+  EXPECT_EQ(status.num_refusals, 0);
+  EXPECT_EQ(status.last_error, "");
+}
+
+TEST(ChannelHealth, CountsEveryOutcome) {
+  ManualClock clock;
+  ChannelHealth health;
+  static_cast<void>(health.snapshot(clock.now()));
+  for (const int seq : {10, 11, 14, -1, 15, 16}) health.received(seq);
+  health.answered(answer(Outcome::kProcessed), 0.020);
+  health.answered(answer(Outcome::kFailed, std::nullopt, "bad luck"), 0.030);
+  health.answered(answer(Outcome::kDropped), 9);
+  health.answered(answer(Outcome::kRefused, RefusalReason::kTruncated, "truncated: short"), 9);
+  health.answered(answer(Outcome::kRefused, RefusalReason::kTruncated, "truncated: shorter"), 9);
+  clock.advance(2s);
+  const source_status_t status = health.snapshot(clock.now());
+  EXPECT_EQ(status.received, 6);
+  EXPECT_EQ(status.processed, 2);
+  EXPECT_EQ(status.dropped, 1);
+  EXPECT_EQ(status.refused, 2);
+  EXPECT_EQ(status.pending, 1);
+  EXPECT_EQ(status.lost, 2);
+  EXPECT_DOUBLE_EQ(status.rate, 3);
+  EXPECT_EQ(status.latency_p50, 0.020);
+  EXPECT_EQ(status.latency_p99, 0.030);
+  ASSERT_EQ(status.num_refusals, 1);
+  EXPECT_EQ(status.refusals[0].reason, "truncated");
+  EXPECT_EQ(status.refusals[0].count, 2);
+  EXPECT_EQ(status.last_error, "truncated: shorter");
+}
+
+TEST(ChannelHealth, CountsAddUpWhileOthersCount) {
+  ManualClock clock;
+  ChannelHealth health;
+  constexpr int kMessages = 2000;
+  std::vector<std::thread> threads;
+  for (int t = 0; t < 2; ++t) {
+    threads.emplace_back([&health] {
+      for (int i = 0; i < kMessages; ++i) {
+        health.received(i);
+        health.answered(answer(static_cast<Outcome>(i % 4)), 0.01);
+      }
+    });
+  }
+  for (int i = 0; i < 200; ++i) {
+    const source_status_t status = health.snapshot(clock.now());
+    ASSERT_EQ(status.received, status.processed + status.dropped + status.refused + status.pending);
+    ASSERT_GE(status.pending, 0);
+  }
+  for (std::thread& thread : threads) thread.join();
+  const source_status_t status = health.snapshot(clock.now());
+  EXPECT_EQ(status.received, 2 * kMessages);
+  EXPECT_EQ(status.pending, 0);
+}
+
+TEST(ProcessHealth, SaysWhoAndHowLong) {
+  ManualClock clock;
+  ProcessHealth health(clock);
+  clock.advance(90s);
+  const status_t status = health.snapshot(status_t::STOPPING, std::vector<source_status_t>(2));
+  EXPECT_EQ(status.state, +status_t::STOPPING);
+  EXPECT_EQ(status.pid, getpid());
+  EXPECT_EQ(status.uptime, 90);
+  EXPECT_EQ(status.utime, clock.wall_utime());
+  EXPECT_EQ(status.num_sources, 2);
+  EXPECT_GT(status.rss, 0);
+  EXPECT_FALSE(status.version.empty());
+  EXPECT_FALSE(status.host.empty());
+}
+
+}  // namespace
+}  // namespace graspd

@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/daemon/stop_signals.hpp"
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+
+namespace graspd {
+namespace {
+
+TEST(StopSignals, AreAskedForInsteadOfEndingTheProcess) {
+  const StopSignals signals;
+  EXPECT_EQ(signals.received(), "");
+  ASSERT_EQ(raise(SIGTERM), 0);
+  EXPECT_EQ(signals.received(), "SIGTERM");
+  EXPECT_EQ(signals.received(), "");
+  ASSERT_EQ(raise(SIGINT), 0);
+  EXPECT_EQ(signals.received(), "SIGINT");
+  EXPECT_EQ(signals.received(), "");
+}
+
+}  // namespace
+}  // namespace graspd
