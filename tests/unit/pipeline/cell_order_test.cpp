@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/pipeline/cell_order.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+#include "tests/support/clouds.hpp"
+
+namespace graspd {
+namespace {
+
+Eigen::Vector3i cell_of_key(const CellOrder& order, std::int64_t key) {
+  const std::int64_t in_layer = key % order.layer;
+  return order.min_cell + Eigen::Vector3i(static_cast<int>(in_layer % order.row),
+                                          static_cast<int>(in_layer / order.row),
+                                          static_cast<int>(key / order.layer));
+}
+
+void expect_sorted_and_complete(const PointCloud& cloud, const CellOrder& order) {
+  ASSERT_EQ(order.points.size(), cloud.size());
+  ASSERT_EQ(order.starts.size(), order.num_cells() + 1);
+  EXPECT_EQ(order.starts.front(), 0u);
+  EXPECT_EQ(order.starts.back(), cloud.size());
+  std::vector<std::uint8_t> seen(cloud.size());
+  for (std::size_t c = 0; c < order.num_cells(); ++c) {
+    if (c > 0) {
+      EXPECT_LT(order.keys[c - 1], order.keys[c]);
+    }
+    const auto points = order.cell(c);
+    EXPECT_FALSE(points.empty());
+    EXPECT_TRUE(std::is_sorted(points.begin(), points.end()))
+        << "the sort is stable: indices ascend within a cell";
+    for (const std::uint32_t i : points) ++seen.at(i);
+  }
+  EXPECT_TRUE(std::all_of(seen.begin(), seen.end(), [](int n) { return n == 1; }));
+}
+
+void expect_points_inside_their_cells(const PointCloud& cloud, const CellOrder& order) {
+  for (std::size_t c = 0; c < order.num_cells(); ++c) {
+    const Eigen::Vector3f corner = cell_of_key(order, order.keys[c]).cast<float>() * order.cell_m;
+    for (const std::uint32_t i : order.cell(c)) {
+      const Eigen::Vector3f in_cell = cloud.point(i) - corner;
+      const float rounding = 4e-7f * cloud.point(i).cwiseAbs().maxCoeff();
+      EXPECT_GE(in_cell.minCoeff(), -rounding);
+      EXPECT_LE(in_cell.maxCoeff(), order.cell_m + rounding);
+    }
+  }
+}
+
+void expect_no_neighbour_wraps(const CellOrder& order) {
+  std::map<std::int64_t, Eigen::Vector3i> occupied;
+  for (const std::int64_t key : order.keys) occupied[key] = cell_of_key(order, key);
+  for (const auto& [key, cell] : occupied)
+    for (int dz = -1; dz <= 1; ++dz)
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx) {
+          const Eigen::Vector3i neighbour = cell + Eigen::Vector3i(dx, dy, dz);
+          const auto found = occupied.find(order.key(neighbour));
+          if (found == occupied.end()) continue;
+          EXPECT_EQ(found->second, neighbour) << "key " << found->first;
+        }
+}
+
+void expect_all(const PointCloud& cloud, float cell_m) {
+  const CellOrder order = order_by_cell(cloud, cell_m);
+  expect_sorted_and_complete(cloud, order);
+  expect_points_inside_their_cells(cloud, order);
+  expect_no_neighbour_wraps(order);
+}
+
+TEST(CellOrder, EmptyCloud) {
+  const CellOrder order = order_by_cell({}, 0.01f);
+  EXPECT_EQ(order.num_cells(), 0u);
+  EXPECT_EQ(order.starts, std::vector<std::uint32_t>{0});
+}
+
+TEST(CellOrder, OnePoint) {
+  expect_all(random_cloud(1, {-1, -1, -1}, {1, 1, 1}, 1), 0.01f);
+}
+
+TEST(CellOrder, AllPointsEqual) {
+  const PointCloud cloud = random_cloud(500, {0.3f, -0.2f, 0.1f}, {0.3f, -0.2f, 0.1f}, 1);
+  EXPECT_EQ(order_by_cell(cloud, 0.01f).num_cells(), 1u);
+  expect_all(cloud, 0.01f);
+}
+
+TEST(CellOrder, RandomCloudAcrossTheOrigin) {
+  expect_all(random_cloud(3000, {-0.1f, -0.2f, -0.1f}, {0.1f, 0.1f, 0.2f}, 2), 0.02f);
+}
+
+TEST(CellOrder, FullGridHasNoRoomToWrap) {
+  // Every cell of a small block is occupied: a neighbour that wrapped would meet another one.
+  PointCloud cloud;
+  for (int i = 0; i < 5 * 4 * 3; ++i)
+    cloud.push_back(0.01f * (Eigen::Vector3f(static_cast<float>(i % 5), static_cast<float>(i / 5 % 4),
+                                             static_cast<float>(i / 20)) +
+                             Eigen::Vector3f::Constant(0.5f)));
+  EXPECT_EQ(order_by_cell(cloud, 0.01f).num_cells(), 60u);
+  expect_all(cloud, 0.01f);
+}
+
+TEST(CellOrder, PointsOnCellBorders) {
+  expect_all(grid_patch({-0.05f, -0.05f, 0}, {0.01f, 0, 0}, {0, 0.01f, 0}, 11, 11), 0.01f);
+}
+
+TEST(CellOrder, FlatAndThinClouds) {
+  expect_all(random_cloud(500, {-0.5f, 0, 0}, {0.5f, 0, 0}, 3), 0.01f);
+  expect_all(random_cloud(500, {0, -0.5f, 0}, {0, 0.5f, 0}, 4), 0.01f);
+  expect_all(random_cloud(500, {0, 0, -0.5f}, {0, 0, 0.5f}, 5), 0.01f);
+}
+
+TEST(CellOrder, WideCloudNeedsMoreThan32BitsOfKey) {
+  const PointCloud cloud = random_cloud(2000, {-10, -10, -10}, {10, 10, 10}, 6);
+  const CellOrder order = order_by_cell(cloud, 0.003f);
+  EXPECT_GT(order.keys.back(), std::int64_t{1} << 36);
+  expect_all(cloud, 0.003f);
+}
+
+}  // namespace
+}  // namespace graspd

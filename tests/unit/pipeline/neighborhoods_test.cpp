@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/pipeline/neighborhoods.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/support/clouds.hpp"
+
+namespace graspd {
+namespace {
+
+std::vector<std::uint32_t> brute_force(const PointCloud& cloud, std::size_t s, float radius_m) {
+  std::vector<std::uint32_t> found;
+  for (std::uint32_t i = 0; i < cloud.size(); ++i) {
+    const float dx = cloud.x[i] - cloud.x[s], dy = cloud.y[i] - cloud.y[s], dz = cloud.z[i] - cloud.z[s];
+    if (dx * dx + dy * dy + dz * dz <= radius_m * radius_m) found.push_back(i);
+  }
+  return found;
+}
+
+void expect_brute_force(const PointCloud& cloud, float radius_m) {
+  const Neighborhoods neighborhoods = find_neighborhoods(cloud, {radius_m});
+  ASSERT_EQ(neighborhoods.size(), cloud.size());
+  for (std::size_t s = 0; s < cloud.size(); ++s) {
+    const auto list = neighborhoods.of(s);
+    std::vector<std::uint32_t> sorted(list.begin(), list.end());
+    std::sort(sorted.begin(), sorted.end());
+    ASSERT_EQ(sorted, brute_force(cloud, s, radius_m))
+        << "point " << s << " at " << cloud.point(s).transpose();
+  }
+}
+
+TEST(Neighborhoods, EmptyCloud) {
+  EXPECT_EQ(find_neighborhoods({}, {0.009f}).size(), 0u);
+}
+
+TEST(Neighborhoods, OnePointIsItsOwnNeighbour) {
+  expect_brute_force(random_cloud(1, {1, 1, 1}, {2, 2, 2}, 1), 0.009f);
+}
+
+TEST(Neighborhoods, AllPointsEqual) {
+  expect_brute_force(random_cloud(300, {1, -1, 2}, {1, -1, 2}, 1), 0.009f);
+}
+
+TEST(Neighborhoods, RandomClouds) {
+  for (std::uint32_t seed = 0; seed < 4; ++seed)
+    expect_brute_force(random_cloud(1500, {-0.05f, -0.04f, -0.03f}, {0.05f, 0.04f, 0.03f}, seed), 0.009f);
+}
+
+TEST(Neighborhoods, RadiusLargerThanTheCloud) {
+  expect_brute_force(random_cloud(200, {-0.01f, -0.01f, -0.01f}, {0.01f, 0.01f, 0.01f}, 1), 0.1f);
+}
+
+TEST(Neighborhoods, DenseClustersFarApart) {
+  PointCloud cloud;
+  for (std::uint32_t k = 0; k < 5; ++k) {
+    const Eigen::Vector3f at = random_cloud(1, {-5, -5, -5}, {5, 5, 5}, 10 + k).point(0);
+    cloud = joined(cloud, random_cloud(300, at, at + Eigen::Vector3f::Constant(0.012f), 20 + k));
+  }
+  expect_brute_force(cloud, 0.009f);
+}
+
+TEST(Neighborhoods, NegativeCoordinates) {
+  expect_brute_force(random_cloud(1000, {-3.05f, -2.05f, -1.05f}, {-3, -2, -1}, 7), 0.009f);
+}
+
+TEST(Neighborhoods, LinesAndPlanes) {
+  expect_brute_force(random_cloud(500, {-0.3f, 0, 0}, {0.3f, 0, 0}, 8), 0.009f);
+  expect_brute_force(random_cloud(800, {-0.1f, 0, -0.1f}, {0.1f, 0, 0.1f}, 9), 0.009f);
+}
+
+// Points whose spacing is the radius itself lie on the borders of cells, and exactly one radius apart as far
+// as rounding allows: the case where a neighbour can hide two cells away.
+TEST(Neighborhoods, PointsOnCellBorders) {
+  for (const float radius : {0.009f, 0.01f, 0.0073f})
+    for (const float offset : {0.0f, -0.5f, 1.0f, 2.7f}) {
+      const Eigen::Vector3f corner = Eigen::Vector3f::Constant(radius * std::round(offset / radius));
+      expect_brute_force(grid_patch(corner, {radius, 0, 0}, {0, radius, 0}, 30, 10), radius);
+      expect_brute_force(grid_patch(corner, {0.5f * radius, 0, 0}, {0, 0, radius / 3}, 20, 20), radius);
+    }
+}
+
+TEST(Neighborhoods, OrderWithinAListFollowsPositionsNotIndices) {
+  const PointCloud cloud = random_cloud(400, {0, 0, 0}, {0.03f, 0.03f, 0.03f}, 11);
+  PointCloud reversed;
+  for (std::size_t i = cloud.size(); i-- > 0;) reversed.push_back(cloud.point(i));
+  const Neighborhoods forward = find_neighborhoods(cloud, {0.009f}),
+                      backward = find_neighborhoods(reversed, {0.009f});
+  // Cells come in the same order; only points of one cell may swap.
+  for (std::size_t s = 0; s < cloud.size(); ++s) {
+    const auto a = forward.of(s), b = backward.of(cloud.size() - 1 - s);
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t k = 0; k < a.size(); ++k) {
+      const Eigen::Vector3f p = cloud.point(a[k]), q = reversed.point(b[k]);
+      EXPECT_LE((p - q).cwiseAbs().maxCoeff(), 0.009f);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace graspd

@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/pipeline/objects.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+
+#include "tests/support/clouds.hpp"
+#include "tests/support/scene_gallery.hpp"
+#include "tests/unit/pipeline/voxel_surfaces.hpp"
+
+namespace graspd {
+namespace {
+
+struct Grouped {
+  VoxelSurfaces surfaces;
+  std::optional<Support> support;
+  Segments segments;
+  Objects objects;
+};
+
+/// with_support: look for a table; else the largest plane might be taken for one.
+Grouped group(const AnalyticScene& scene, bool with_support = true) {
+  Grouped g;
+  g.surfaces = voxel_surfaces(render(scene));
+  const VoxelSurfaces& s = g.surfaces;
+  if (with_support) g.support = find_support(s.cloud, s.normals, kTestLeaf, {});
+  const auto is_support = support_points(g.support);
+  g.segments = build_segments(s.cloud, grow_regions(s.normals, s.neighborhoods, s.is_edge, is_support, {}),
+                              kTestLeaf, {});
+  g.objects = group_segments(s.cloud, s.normals, s.neighborhoods, g.segments, is_support, {});
+  return g;
+}
+
+/// Objects that hold more than a twentieth of a solid's points that are in any.
+std::set<std::int32_t> objects_of(const Grouped& g, int solid) {
+  std::map<std::int32_t, int> count;
+  int all = 0;
+  for (std::size_t i = 0; i < g.surfaces.cloud.size(); ++i) {
+    if (g.surfaces.solid[i] != solid || g.objects.of_point[i] < 0) continue;
+    ++count[g.objects.of_point[i]];
+    ++all;
+  }
+  std::set<std::int32_t> large;
+  for (const auto& [object, n] : count)
+    if (20 * n > all) large.insert(object);
+  return large;
+}
+
+/// Each of the solids is one object of its own.
+void expect_one_object_each(const Grouped& g, const std::vector<int>& solids) {
+  std::set<std::int32_t> all;
+  for (const int solid : solids) {
+    const auto objects = objects_of(g, solid);
+    EXPECT_EQ(objects.size(), 1u) << "solid " << solid;
+    all.insert(objects.begin(), objects.end());
+  }
+  EXPECT_EQ(all.size(), solids.size());
+}
+
+AnalyticScene without_table(AnalyticScene scene) {
+  scene.solids.erase(scene.solids.begin());
+  return scene;
+}
+
+TEST(Objects, NothingToGroup) {
+  const Objects objects = group_segments({}, {}, {}, {}, {}, {});
+  EXPECT_EQ(objects.num_objects, 0);
+}
+
+TEST(Objects, ThreeFacesOfABoxAreOneObject) {
+  // Turned, so that the camera sees the top and two sides.
+  const Grouped g = group(without_table(on_table({standing_box(0, 0, {0.08, 0.09, 0.07}, 0.7)})), false);
+  EXPECT_EQ(g.segments.list.size(), 3u);
+  EXPECT_EQ(g.objects.num_objects, 1);
+  expect_one_object_each(g, {0});
+}
+
+TEST(Objects, SideAndTopOfACylinderAreOneObject) {
+  const Grouped g = group(without_table(cylinder_on_table()), false);
+  EXPECT_GE(g.segments.list.size(), 2u);
+  EXPECT_EQ(g.objects.num_objects, 1);
+}
+
+TEST(Objects, EveryBoxOnTheTableIsOne) {
+  expect_one_object_each(group(box_on_table()), {1});
+  expect_one_object_each(group(three_objects()), {1, 2, 3});
+}
+
+TEST(Objects, ABoxAgainstAWallIsNotTheWall) {
+  const Grouped g = group(without_table(on_table({standing_box(0, 0, {0.10, 0.08, 0.08}),
+                                                  standing_box(0, 0.14, {0.3, 0.2, 0.25})})),
+                          false);
+  expect_one_object_each(g, {0, 1});
+}
+
+TEST(Objects, TwoBoxesWithAConcaveBorderAreTwo) {
+  // The lower one stands 20 mm farther back: flush fronts would be one surface to anybody.
+  expect_one_object_each(group(on_table({standing_box(-0.025, 0, {0.05, 0.10, 0.10}),
+                                         standing_box(0.025, 0.02, {0.05, 0.10, 0.06})})),
+                         {1, 2});
+  expect_one_object_each(group(bottle_beside_box()), {1, 2});
+}
+
+TEST(Objects, ThePointsOfTheSupportBelongToNone) {
+  const Grouped g = group(box_on_table());
+  ASSERT_TRUE(g.support);
+  for (std::size_t i = 0; i < g.surfaces.cloud.size(); ++i)
+    if (g.support->is_support[i]) {
+      EXPECT_EQ(g.objects.of_point[i], -1);
+    }
+}
+
+TEST(Objects, TooShortABorderDoesNotJoin) {
+  const VoxelSurfaces s = voxel_surfaces(render(without_table(box_on_table())));
+  const Segments segments =
+      build_segments(s.cloud, grow_regions(s.normals, s.neighborhoods, s.is_edge, {}, {}), kTestLeaf, {});
+  ObjectsConfig config;
+  config.min_border_pairs = 100000;
+  const Objects apart = group_segments(s.cloud, s.normals, s.neighborhoods, segments, {}, config);
+  EXPECT_EQ(apart.num_objects, static_cast<int>(segments.list.size()));
+  for (std::size_t k = 0; k < segments.list.size(); ++k)
+    EXPECT_EQ(apart.of_segment[k], static_cast<std::int32_t>(k));
+}
+
+TEST(Objects, ObjectsOfPointsAreThoseOfTheirSegments) {
+  const Grouped g = group(three_objects());
+  for (std::size_t i = 0; i < g.surfaces.cloud.size(); ++i) {
+    const std::int32_t s = g.segments.of_point[i];
+    if (s >= 0) {
+      EXPECT_EQ(g.objects.of_point[i], g.objects.of_segment[static_cast<std::size_t>(s)]);
+    }
+  }
+  const std::set<std::int32_t> numbers(g.objects.of_segment.begin(), g.objects.of_segment.end());
+  EXPECT_EQ(numbers.size(), static_cast<std::size_t>(g.objects.num_objects));
+  EXPECT_EQ(*numbers.begin(), 0);
+  EXPECT_EQ(*numbers.rbegin(), g.objects.num_objects - 1);
+}
+
+}  // namespace
+}  // namespace graspd

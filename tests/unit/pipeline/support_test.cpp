@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/pipeline/support.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/support/clouds.hpp"
+#include "tests/support/scene_gallery.hpp"
+#include "tests/unit/pipeline/voxel_surfaces.hpp"
+
+namespace graspd {
+namespace {
+
+std::optional<Support> support_of(const VoxelSurfaces& s) {
+  return find_support(s.cloud, s.normals, kTestLeaf, {});
+}
+
+/// The plane with this normal through this point.
+void expect_plane(const std::optional<Support>& support, const Eigen::Vector3d& normal,
+                  const Eigen::Vector3d& point) {
+  ASSERT_TRUE(support);
+  EXPECT_NEAR(support->plane.normal.norm(), 1, 1e-5);
+  EXPECT_GT(support->plane.normal.cast<double>().dot(normal), std::cos(0.3 * std::numbers::pi / 180));
+  EXPECT_NEAR(support->plane.height(point.cast<float>()), 0, 0.001);
+}
+
+/// Points of the solid are its own, those of others that rise well above it are not.
+void expect_points(const VoxelSurfaces& s, const Support& support, int solid, double rise_m) {
+  for (std::size_t i = 0; i < s.cloud.size(); ++i) {
+    const float height = support.plane.height(s.cloud.point(i));
+    if (s.solid[i] == solid && height < 0.001f) {
+      EXPECT_EQ(support.is_support[i], 1) << s.cloud.point(i).transpose();
+    }
+    if (height > rise_m) {
+      EXPECT_EQ(support.is_support[i], 0) << s.cloud.point(i).transpose();
+    }
+  }
+}
+
+TEST(Support, Table) {
+  const VoxelSurfaces s = voxel_surfaces(render(three_objects()));
+  const auto support = support_of(s);
+  expect_plane(support, Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Zero());
+  expect_points(s, *support, 0, 0.010);
+}
+
+TEST(Support, TiltedCamerasAndFrames) {
+  for (int k = 0; k < 6; ++k) {
+    Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+    T.linear() =
+        Eigen::AngleAxisd(0.9 * k, Eigen::Vector3d(1, k - 2.5, 0.3 * k).normalized()).toRotationMatrix();
+    T.translation() = Eigen::Vector3d(0.3 * k, -0.5, 1);
+    const VoxelSurfaces s = voxel_surfaces(render(moved(three_objects(), T)));
+    const auto support = support_of(s);
+    expect_plane(support, T.linear().col(2), T.translation());
+    if (support) expect_points(s, *support, 0, 0.010);
+  }
+}
+
+TEST(Support, CameraFromStraightAboveAndFromLow) {
+  for (const Eigen::Vector3d& eye : {Eigen::Vector3d(0, 0, 0.8), Eigen::Vector3d(0, -0.7, 0.25)}) {
+    AnalyticScene scene = three_objects();
+    scene.camera.T_scene_camera = looking_at(eye, {0, 0, 0.02});
+    const VoxelSurfaces s = voxel_surfaces(render(scene));
+    expect_plane(support_of(s), Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Zero());
+  }
+}
+
+TEST(Support, SurvivesNoise) {
+  RenderedScene rendered = render(three_objects());
+  rendered.cloud = with_range_noise(rendered.cloud, 0.001f, 1);
+  const auto support = support_of(voxel_surfaces(rendered));
+  expect_plane(support, Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Zero());
+  EXPECT_GT(support->sigma_m, 0.0002f);
+  EXPECT_LT(support->sigma_m, 0.002f);
+}
+
+TEST(Support, NoneWithoutAPlane) {
+  EXPECT_FALSE(find_support({}, {}, kTestLeaf, {}));
+  const PointCloud ball = sphere_shell({0, 0, 0.5f}, 0.06f, 4000);
+  const Neighborhoods near = find_neighborhoods(ball, {kTestRadius});
+  EXPECT_FALSE(find_support(ball, estimate_normals(ball, near), kTestLeaf, {}));
+}
+
+TEST(Support, NoneWhereThePlaneIsTooSmall) {
+  // 0.1 m x 0.1 m is less than the 0.03 m2 asked for.
+  PointCloud patch = grid_patch({0, 0, 0}, {0.003f, 0, 0}, {0, 0.003f, 0}, 33, 33);
+  patch.viewpoint = {0, 0, 1};
+  const Neighborhoods near = find_neighborhoods(patch, {kTestRadius});
+  const Normals normals = estimate_normals(patch, near);
+  EXPECT_FALSE(find_support(patch, normals, kTestLeaf, {}));
+  SupportConfig smaller;
+  smaller.min_area_m2 = 0.005f;
+  EXPECT_TRUE(find_support(patch, normals, kTestLeaf, smaller));
+}
+
+TEST(Support, NoneWhenNotAskedFor) {
+  const VoxelSurfaces s = voxel_surfaces(render(three_objects()));
+  SupportConfig off;
+  off.enabled = false;
+  EXPECT_FALSE(find_support(s.cloud, s.normals, kTestLeaf, off));
+}
+
+TEST(Support, FloorOfABin) {
+  // 0.4 m x 0.3 m inside, walls of 10 mm and 0.12 m high.
+  const VoxelSurfaces s = voxel_surfaces(render(on_table(
+      {standing_box(0, -0.155, {0.42, 0.01, 0.12}), standing_box(0, 0.155, {0.42, 0.01, 0.12}),
+       standing_box(-0.205, 0, {0.01, 0.3, 0.12}), standing_box(0.205, 0, {0.01, 0.3, 0.12}),
+       standing_box(0.05, 0.02, {0.05, 0.10, 0.06}, 0.3), standing_cylinder(-0.08, 0, 0.03, 0.09)})));
+  const auto support = support_of(s);
+  expect_plane(support, Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Zero());
+  expect_points(s, *support, 0, 0.010);
+}
+
+TEST(Support, LargestOfSeveralPlanes) {
+  // A table, a wall behind it, and a large box: three planes that face the camera.
+  const VoxelSurfaces s = voxel_surfaces(
+      render(on_table({standing_box(0, 0.3, {1, 0.05, 0.5}), standing_box(-0.1, 0.05, {0.15, 0.15, 0.12})})));
+  expect_plane(support_of(s), Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Zero());
+}
+
+TEST(Support, TheTableRatherThanTheLargerFloorBelow) {
+  // A table of 0.5 m x 0.4 m, 0.5 m above a floor of which more is seen.
+  AnalyticScene scene =
+      on_table({standing_box(0, 0, {0.5, 0.4, 0.03}), standing_box(0.05, 0, {0.05, 0.1, 0.08})});
+  scene.solids[1].T_scene_solid.translation().z() = -0.015;
+  scene.solids[0].T_scene_solid.translation().z() = -0.5;
+  scene.camera = {looking_at({0, -0.6, 0.9}, {0, 0, 0}), 320, 240, 230};
+  const VoxelSurfaces s = voxel_surfaces(render(scene));
+  expect_plane(support_of(s), Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Zero());
+}
+
+TEST(Support, TheSameCloudGivesTheSamePlane) {
+  const VoxelSurfaces s = voxel_surfaces(render(three_objects()));
+  const auto a = support_of(s), b = support_of(s);
+  ASSERT_TRUE(a && b);
+  EXPECT_EQ(a->plane.normal, b->plane.normal);
+  EXPECT_EQ(a->plane.offset_m, b->plane.offset_m);
+  EXPECT_EQ(a->is_support, b->is_support);
+}
+
+TEST(Support, ThicknessGrowsWithDistanceAndScatter) {
+  const SupportConfig config;
+  const Eigen::Vector3f eye(0, 0, 0);
+  EXPECT_FLOAT_EQ(support_thickness({0, 0, 0.5f}, eye, 0, config), config.thickness_m);
+  EXPECT_FLOAT_EQ(support_thickness({0, 0, 0.8f}, eye, 0, config), config.thickness_m);
+  EXPECT_NEAR(support_thickness({0, 0, 1.8f}, eye, 0, config), config.thickness_m + config.thickness_per_m,
+              1e-6);
+  EXPECT_NEAR(support_thickness({0, 0, 0.5f}, eye, 0.004f, config), 0.014f, 1e-6);
+}
+
+}  // namespace
+}  // namespace graspd
