@@ -13,6 +13,8 @@
 namespace graspd {
 namespace {
 
+constexpr std::size_t kMostSeedsInAllDirections = 16;
+
 using Directions = std::vector<Eigen::Vector3f>;
 
 /// Adds a unit vector unless one that differs by less than the angle is there; signless: opposite ones are
@@ -135,7 +137,10 @@ class SeedSearch {
 
   void add(const std::vector<std::uint32_t>& points, std::int32_t object, SearchRound round,
            std::vector<Candidate>& out) const {
-    for (const std::uint32_t seed : spread_seeds(in_.cloud, points, config_.seed_spacing_m)) {
+    const std::vector<std::uint32_t> seeds = spread_seeds(in_.cloud, points, config_.seed_spacing_m);
+    const std::size_t most = round == SearchRound::kAllDirections ? kMostSeedsInAllDirections : seeds.size();
+    for (std::size_t k = 0; k < std::min(most, seeds.size()); ++k) {
+      const std::uint32_t seed = seeds[k * seeds.size() / std::min(most, seeds.size())];
       const std::int32_t s = in_.segments.of_point[seed];
       if (s < 0) continue;
       Directions outward = approaches(points, seed);

@@ -90,9 +90,18 @@ void append_neighbors(const Eigen::Vector3f& s, float radius_squared, Candidates
   list.insert(list.end(), begin, end);
 }
 
+/// The points of a cell whose neighbourhoods are wanted.
+void wanted_points(std::span<const std::uint32_t> cell, const std::vector<std::uint8_t>& skip,
+                   std::vector<std::uint32_t>& wanted) {
+  wanted.clear();
+  for (const std::uint32_t i : cell)
+    if (skip.empty() || !skip[i]) wanted.push_back(i);
+}
+
 }  // namespace
 
-Neighborhoods find_neighborhoods(const PointCloud& cloud, const NeighborhoodsConfig& config) {
+Neighborhoods find_neighborhoods(const PointCloud& cloud, const NeighborhoodsConfig& config,
+                                 const std::vector<std::uint8_t>& skip) {
   Neighborhoods result;
   result.lists_.resize(cloud.size());
   const CellOrder order = order_by_cell(cloud, config.radius_m);
@@ -107,18 +116,22 @@ Neighborhoods find_neighborhoods(const PointCloud& cloud, const NeighborhoodsCon
     RowCursor rows(order, begin);
     Candidates candidates;
     std::vector<std::uint32_t>& list = result.storage_[chunk];
+    std::vector<std::uint32_t> wanted, done;
     std::vector<std::size_t> ends;
     for (std::size_t c = begin; c < end; ++c) {
+      wanted_points(order.cell(c), skip, wanted);
+      if (wanted.empty()) continue;
       rows.collect(cloud, c, candidates);
-      for (const std::uint32_t i : order.cell(c)) {
+      for (const std::uint32_t i : wanted) {
         append_neighbors(cloud.point(i), radius_squared, candidates, list);
+        done.push_back(i);
         ends.push_back(list.size());
       }
     }
     // Only now, because the list moves while it grows.
     std::size_t first = 0;
-    for (std::size_t k = 0; k < ends.size(); ++k) {
-      result.lists_[order.points[order.starts[begin] + k]] = {list.data() + first, list.data() + ends[k]};
+    for (std::size_t k = 0; k < done.size(); ++k) {
+      result.lists_[done[k]] = {list.data() + first, list.data() + ends[k]};
       first = ends[k];
     }
   });

@@ -21,19 +21,22 @@ struct NeighborhoodsConfig {
   }
 };
 
-/// For each point the indices of all points within the radius, itself included.
+/// For each point the indices of all points within the radius, itself included; for skipped points none.
 class Neighborhoods {
  public:
   [[nodiscard]] std::size_t size() const { return lists_.size(); }
   [[nodiscard]] std::span<const std::uint32_t> of(std::size_t point) const { return lists_[point]; }
 
  private:
-  friend Neighborhoods find_neighborhoods(const PointCloud&, const NeighborhoodsConfig&);
+  friend Neighborhoods find_neighborhoods(const PointCloud&, const NeighborhoodsConfig&,
+                                          const std::vector<std::uint8_t>&);
   std::vector<std::span<const std::uint32_t>> lists_;
   std::vector<std::vector<std::uint32_t>> storage_;
 };
 
-/// All points must be finite. The order within a list is fixed by the points' positions.
-[[nodiscard]] Neighborhoods find_neighborhoods(const PointCloud& cloud, const NeighborhoodsConfig& config);
+/// All points must be finite. The order within a list is fixed by the points' positions. skip: 1 for each
+/// point whose own neighbourhood is not wanted (it still is a neighbour of others); may be empty.
+[[nodiscard]] Neighborhoods find_neighborhoods(const PointCloud& cloud, const NeighborhoodsConfig& config,
+                                               const std::vector<std::uint8_t>& skip = {});
 
 }  // namespace graspd

@@ -35,6 +35,7 @@ void add_covariance(const PointCloud& cloud, std::span<const std::uint32_t> neig
     yz += dy * dz;
     zz += dz * dz;
   }
+  if (neighborhood.empty()) return;
   const float per = 1.0f / static_cast<float>(neighborhood.size());
   xx -= x * x * per;
   xy -= x * y * per;
@@ -99,6 +100,9 @@ void eigenvectors(const Covariances& c, const Lanes& t, Lanes& x, Lanes& y, Lane
 void estimate_lanes(const PointCloud& cloud, const Neighborhoods& neighborhoods, std::size_t first,
                     std::size_t num, Normals& normals) {
   Covariances c;
+  bool any = false;
+  for (std::size_t k = 0; k < num; ++k) any |= neighborhoods.of(first + k).size() >= 3;
+  if (!any) return;
   for (std::size_t k = 0; k < num; ++k)
     add_covariance(cloud, neighborhoods.of(first + k), cloud.point(first + k), c, k);
   Lanes x{}, y{}, z{};

@@ -9,7 +9,8 @@
 
 namespace graspd {
 
-/// Unit vectors as a structure of arrays; zero where a neighbourhood has fewer than three points or no plane.
+/// Unit vectors as a structure of arrays; zero where a neighbourhood has fewer than three points, is skipped,
+/// or has no plane.
 struct Normals {
   std::vector<float> x, y, z;
 

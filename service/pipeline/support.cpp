@@ -11,10 +11,15 @@
 #include <numbers>
 #include <random>
 
+#include "service/pipeline/downsample.hpp"
+#include "service/pipeline/neighborhoods.hpp"
+#include "service/pipeline/normals.hpp"
+
 namespace graspd {
 namespace {
 
-constexpr std::size_t kSampleSize = 3000;
+constexpr std::size_t kSampleSize = 2000;    // points that hypotheses are scored on
+constexpr std::size_t kScatterSize = 10000;  // points that the scatter is measured on
 
 struct Sample {
   std::vector<Eigen::Vector3f> points, normals;
@@ -74,9 +79,9 @@ std::optional<Plane> best_hypothesis(const Sample& sample, const SupportConfig& 
   return planes[static_cast<std::size_t>(best - scores.begin())];
 }
 
-/// Least squares over the inliers; returns their number and sets sigma.
+/// Least squares over the inliers; returns their number.
 std::size_t refine(const PointCloud& cloud, const Normals& normals, float thickness_m, float min_cosine,
-                   Plane& plane, float& sigma_m) {
+                   Plane& plane) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
   std::size_t n = 0;
@@ -95,8 +100,20 @@ std::size_t refine(const PointCloud& cloud, const Normals& normals, float thickn
   Eigen::Vector3f normal = solver.eigenvectors().col(0).cast<float>();
   if (normal.dot(plane.normal) < 0) normal = -normal;
   plane = {normal, -normal.dot(mean.cast<float>())};
-  sigma_m = static_cast<float>(std::sqrt(std::max(0.0, solver.eigenvalues()(0))));
   return n;
+}
+
+/// Root mean square distance from the plane of the points near it.
+float scatter(const PointCloud& cloud, const Plane& plane, float thickness_m) {
+  const std::size_t step = std::max<std::size_t>(1, cloud.size() / kScatterSize);
+  double sum = 0, n = 0;
+  for (std::size_t i = 0; i < cloud.size(); i += step) {
+    const float height = plane.height(cloud.point(i));
+    if (std::abs(height) >= thickness_m) continue;
+    sum += static_cast<double>(height) * static_cast<double>(height);
+    ++n;
+  }
+  return n > 0 ? static_cast<float>(std::sqrt(sum / n)) : 0.0f;
 }
 
 }  // namespace
@@ -107,18 +124,21 @@ float support_thickness(const Eigen::Vector3f& p, const Eigen::Vector3f& viewpoi
   return std::max(config.thickness_m, 3.5f * sigma_m) + config.thickness_per_m * beyond;
 }
 
-std::optional<Support> find_support(const PointCloud& cloud, const Normals& normals, float leaf_size_m,
-                                    const SupportConfig& config) {
-  if (!config.enabled) return std::nullopt;
+std::optional<Support> find_support(const PointCloud& cloud, const SupportConfig& config) {
+  if (!config.enabled || cloud.empty()) return std::nullopt;
+  const PointCloud coarse = downsample(cloud, {config.leaf_size_m}).cloud;
+  const Normals normals = estimate_normals(coarse, find_neighborhoods(coarse, {3 * config.leaf_size_m}));
   const float min_cosine = std::cos(config.max_normal_angle_deg * std::numbers::pi_v<float> / 180);
-  const auto hypothesis = best_hypothesis(thin_out(cloud, normals), config, min_cosine, cloud.viewpoint);
+  const auto hypothesis = best_hypothesis(thin_out(coarse, normals), config, min_cosine, cloud.viewpoint);
   if (!hypothesis) return std::nullopt;
   Support support;
   support.plane = *hypothesis;
   std::size_t inliers = 0;
   for (int round = 0; round < 3; ++round)
-    inliers = refine(cloud, normals, config.thickness_m, min_cosine, support.plane, support.sigma_m);
-  if (static_cast<float>(inliers) * leaf_size_m * leaf_size_m < config.min_area_m2) return std::nullopt;
+    inliers = refine(coarse, normals, config.thickness_m, min_cosine, support.plane);
+  if (static_cast<float>(inliers) * config.leaf_size_m * config.leaf_size_m < config.min_area_m2)
+    return std::nullopt;
+  support.sigma_m = scatter(cloud, support.plane, config.thickness_m);
   support.is_support.resize(cloud.size());
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const Eigen::Vector3f p = cloud.point(i);

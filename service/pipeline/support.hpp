@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "service/pipeline/normals.hpp"
+#include "service/pipeline/config_fields.hpp"
 #include "service/pipeline/point_cloud.hpp"
 
 namespace graspd {
@@ -26,6 +26,7 @@ struct SupportConfig {
   float thickness_per_m = 0.006f;
   float max_normal_angle_deg = 25.0f;
   int hypotheses = 200;
+  float leaf_size_m = 0.012f;
 
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& v) {
@@ -37,6 +38,8 @@ struct SupportConfig {
     v("max_normal_angle_deg", self.max_normal_angle_deg, Range{1, 89},
       "between a point's normal and the plane's [degrees]");
     v("hypotheses", self.hypotheses, Range{10, 10000}, "planes tried by RANSAC");
+    v("leaf_size_m", self.leaf_size_m, Range{0.002, 0.2},
+      "voxels of the coarser copy that the plane is looked for in [m]");
   }
 };
 
@@ -46,10 +49,10 @@ struct Support {
   std::vector<std::uint8_t> is_support;  ///< 1 for each point that belongs to the plane or lies below it
 };
 
-/// RANSAC over points and normals, then least squares. leaf_size_m: of the voxels, to turn counts into areas.
-/// The same cloud gives the same plane: the random numbers are seeded by a constant.
-[[nodiscard]] std::optional<Support> find_support(const PointCloud& cloud, const Normals& normals,
-                                                  float leaf_size_m, const SupportConfig& config);
+/// RANSAC over points and normals of a coarser copy of the cloud, then least squares. It comes before the
+/// surfaces, because most points of most frames are the support's and need no neighbourhood of their own. The
+/// same cloud gives the same plane: the random numbers are seeded by a constant.
+[[nodiscard]] std::optional<Support> find_support(const PointCloud& cloud, const SupportConfig& config);
 
 /// How far from the plane points at p still count as its own [m].
 [[nodiscard]] float support_thickness(const Eigen::Vector3f& p, const Eigen::Vector3f& viewpoint,

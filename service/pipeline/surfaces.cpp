@@ -5,6 +5,24 @@
 #include <utility>
 
 namespace graspd {
+namespace {
+
+/// The support's points have the plane's normal.
+Normals surface_normals(const PointCloud& cloud, const Neighborhoods& neighborhoods,
+                        const std::optional<Support>& support) {
+  Normals normals = estimate_normals(cloud, neighborhoods);
+  if (!support) return normals;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (!support->is_support[i]) continue;
+    normals.x[i] = support->plane.normal.x();
+    normals.y[i] = support->plane.normal.y();
+    normals.z[i] = support->plane.normal.z();
+  }
+  return normals;
+}
+
+}  // namespace
+
 Surfaces find_surfaces(const PointCloud& cloud, const DetectConfig& config, const StageObserver& done) {
   const float leaf = config.downsample.leaf_size_m;
   Surfaces s;
@@ -12,22 +30,22 @@ Surfaces find_surfaces(const PointCloud& cloud, const DetectConfig& config, cons
   s.cloud = std::move(voxels.cloud);
   s.voxel_of_point = std::move(voxels.voxel_of_point);
   done("downsample");
-  Neighborhoods neighborhoods = find_neighborhoods(s.cloud, config.neighborhoods);
+  s.support = find_support(s.cloud, config.support);
+  const std::vector<std::uint8_t> none;
+  const std::vector<std::uint8_t>& is_support = s.support ? s.support->is_support : none;
+  done("support");
+  Neighborhoods neighborhoods = find_neighborhoods(s.cloud, config.neighborhoods, is_support);
   done("neighborhoods");
-  s.normals = estimate_normals(s.cloud, neighborhoods);
+  s.normals = surface_normals(s.cloud, neighborhoods, s.support);
   done("normals");
   for (int i = 0; i < config.smoothing.iterations; ++i) {
     s.cloud = smooth(s.cloud, s.normals, neighborhoods);
-    neighborhoods = find_neighborhoods(s.cloud, config.neighborhoods);
-    s.normals = estimate_normals(s.cloud, neighborhoods);
+    neighborhoods = find_neighborhoods(s.cloud, config.neighborhoods, is_support);
+    s.normals = surface_normals(s.cloud, neighborhoods, s.support);
   }
   done("smoothing");
   s.is_edge = find_edge_points(s.normals, neighborhoods, config.smoothness);
   done("edge_points");
-  s.support = find_support(s.cloud, s.normals, leaf, config.support);
-  done("support");
-  const std::vector<std::uint8_t> no_support;
-  const std::vector<std::uint8_t>& is_support = s.support ? s.support->is_support : no_support;
   Labels labels = grow_regions(s.normals, neighborhoods, s.is_edge, is_support, config.smoothness);
   done("region_growing");
   s.segments = build_segments(s.cloud, labels, leaf, config.segments);
