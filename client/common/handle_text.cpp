@@ -72,11 +72,11 @@ std::string_view status_name(std::int8_t status) {
 }
 
 std::string handle_list_line(const handle_list_t& list) {
-  std::string line = printable(list.source_channel) + "  frame " + printable(list.frame_name) +
+  std::string line = plain_line(list.source_channel) + "  frame " + plain_line(list.frame_name) +
                      printed("  seq %lld  ", static_cast<long long>(list.seq)) +
                      std::string(status_name(list.status));
   if (list.status != handle_list_t::OK && !list.status_text.empty())
-    line += " (" + printable(list.status_text) + ")";
+    line += " (" + plain_line(list.status_text) + ")";
   return line + printed("  %zu handles  %d of %d points  %d segments  %d candidates  %.1f ms",
                         list.handles.size(), list.points_used, list.points_in, list.num_segments,
                         list.num_candidates, 1e3 * list.latency);

@@ -31,11 +31,25 @@ std::string printed(const char* format, ...) {
   return text;
 }
 
-std::string printable(std::string_view text) {
+std::string plain_line(std::string_view text) {
   std::string result(text);
   std::replace_if(
       result.begin(), result.end(), [](char c) { return (c >= 0 && c < 0x20) || c == 0x7f; }, '?');
   return result;
+}
+
+std::string_view next_word(std::string_view& text) {
+  constexpr std::string_view kSpace = " \t\r\n\v\f";
+  text.remove_prefix(std::min(text.find_first_not_of(kSpace), text.size()));
+  const auto word = text.substr(0, text.find_first_of(kSpace));
+  text.remove_prefix(word.size());
+  return word;
+}
+
+std::vector<std::string_view> split_words(std::string_view text) {
+  std::vector<std::string_view> words;
+  for (auto word = next_word(text); !word.empty(); word = next_word(text)) words.push_back(word);
+  return words;
 }
 
 TextTable::TextTable(std::vector<std::string> header) {

@@ -12,7 +12,11 @@ namespace graspd {
 [[nodiscard]] std::string printed(const char* format, ...) __attribute__((format(printf, 1, 2)));
 
 /// Text safe to show: control characters become '?'.
-[[nodiscard]] std::string printable(std::string_view text);
+[[nodiscard]] std::string plain_line(std::string_view text);
+
+/// Takes the first word off a text: what stands between spaces or line ends. Empty at the end.
+[[nodiscard]] std::string_view next_word(std::string_view& text);
+[[nodiscard]] std::vector<std::string_view> split_words(std::string_view text);
 
 /// Columns as wide as their widest cell; the first to the left, the others to the right, two spaces between.
 class TextTable {

@@ -122,7 +122,7 @@ int detect(const CLI::App& app, const Options& o) {
           arena.execute([&] { return detect_in_cloud(cloud, files[i].stem().string(), seq, source); });
       summary.add(list);
       print(o, list);
-      if (o.stats) say_block(printable(detection_stats(list)) + '\n');
+      if (o.stats) say_block(plain_line(detection_stats(list)) + '\n');
     } catch (const CloudFileError& error) {
       // The other files may be good.
       say(app, error.what());

@@ -102,7 +102,7 @@ int listen(const CLI::App& app, const Options& o) {
         const auto list = decode_handle_list(packet.bytes);
         if (!list) {
           if (++invalid == 1)
-            say(app, printable(packet.channel) +
+            say(app, plain_line(packet.channel) +
                          ": a message that is no valid handle_list_t; more are only counted");
           return;
         }

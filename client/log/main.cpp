@@ -56,7 +56,7 @@ RecorderConfig recorder_config(const Options& o) {
 std::string summary(const Recorder& recorder) {
   TextTable table({"channel", "messages", "MB"});
   const auto add = [&](const std::string& name, const ChannelCount& count) {
-    table.add({printable(name), printed("%lld", static_cast<long long>(count.events)),
+    table.add({plain_line(name), printed("%lld", static_cast<long long>(count.events)),
                printed("%.1f", 1e-6 * static_cast<double>(count.bytes))});
   };
   for (const auto& [name, count] : recorder.channels()) add(name, count);

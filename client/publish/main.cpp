@@ -106,7 +106,7 @@ int main(int argc, char** argv) {
     try {
       send_all(options, files, publisher);
     } catch (...) {
-      say(app, publisher.summary());
+      if (publisher.frames() > 0) say(app, publisher.summary());
       throw;
     }
     say(app, publisher.summary());

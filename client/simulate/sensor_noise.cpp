@@ -66,9 +66,7 @@ void cast_shadows(const DepthFrame& ideal, const SensorModel& model, DepthFrame&
       const auto i = static_cast<std::size_t>(v * ideal.camera.width + u);
       if (ideal.depth_m[i] <= 0) continue;
       const double column = u - scale / static_cast<double>(ideal.depth_m[i]);
-      // Slanted surfaces are squeezed in the other image, not hidden: a pixel's width of overlap is no
-      // shadow.
-      if (column > covered + 1) lose(frame, i);
+      if (column > covered) lose(frame, i);
       covered = std::min(covered, column);
     }
   }

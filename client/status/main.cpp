@@ -47,7 +47,7 @@ int show(const CLI::App& app, const Options& o) {
   bus.subscribe(o.channel, [&](const Packet& packet) {
     const auto status = decode_status(packet.bytes);
     if (!status) {
-      say(app, printable(packet.channel) + ": a message that is no valid status_t");
+      say(app, plain_line(packet.channel) + ": a message that is no valid status_t");
     } else if (!done()) {
       ++shown;
       o.format == "json" ? write_output(status_json(*status) + '\n') : live.show(status_text(*status) + '\n');

@@ -39,7 +39,7 @@ void write_source(JsonWriter& json, const source_status_t& source) {
 }  // namespace
 
 std::string status_text(const status_t& status) {
-  std::string text = "graspd " + printable(status.version) + " on " + printable(status.host) +
+  std::string text = "graspd " + plain_line(status.version) + " on " + plain_line(status.host) +
                      printed(" (pid %d) ", status.pid) + std::string(state_name(status.state)) + " for " +
                      uptime(status.uptime) +
                      printed(", cpu %.2f, memory %.0f MB (peak %.0f MB), %d workers", status.cpu,
@@ -50,14 +50,14 @@ std::string status_text(const status_t& status) {
   TextTable table({"source", "channel", "received", "processed", "dropped", "refused", "pending", "lost",
                    "Hz", "p50 [ms]", "p99 [ms]"});
   for (const source_status_t& s : status.sources) {
-    table.add({printable(s.name), printable(s.channel), count(s.received), count(s.processed),
+    table.add({plain_line(s.name), plain_line(s.channel), count(s.received), count(s.processed),
                count(s.dropped), count(s.refused), count(s.pending), count(s.lost), printed("%.1f", s.rate),
                printed("%.1f", 1e3 * s.latency_p50), printed("%.1f", 1e3 * s.latency_p99)});
   }
   text += status.sources.empty() ? "no clouds yet\n" : table.str();
   for (const source_status_t& s : status.sources) {
     if (!s.last_error.empty())
-      text += printable(s.channel) + ": last refusal: " + printable(s.last_error) + '\n';
+      text += plain_line(s.channel) + ": last refusal: " + plain_line(s.last_error) + '\n';
   }
   return text;
 }

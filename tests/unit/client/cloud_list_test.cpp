@@ -19,8 +19,8 @@ TEST(NaturalOrder, NumbersCountByTheirValue) {
     for (std::size_t j = 0; j < sorted.size(); ++j) {
       const bool leading_zero = (sorted[i] == "frame-01" && sorted[j] == "frame-1") ||
                                 (sorted[j] == "frame-01" && sorted[i] == "frame-1");
-      if (!leading_zero)
-        EXPECT_EQ(natural_less(sorted[i], sorted[j]), i < j) << sorted[i] << " and " << sorted[j];
+      if (leading_zero) continue;
+      EXPECT_EQ(natural_less(sorted[i], sorted[j]), i < j) << sorted[i] << " and " << sorted[j];
     }
   }
   EXPECT_NE(natural_less("frame-01", "frame-1"), natural_less("frame-1", "frame-01"));

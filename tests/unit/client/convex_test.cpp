@@ -103,7 +103,7 @@ TEST_P(ConvexShapes, BoundsHoldEverything) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ConvexShapes, testing::ValuesIn(cases()),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& instance) { return instance.param.name; });
 
 TEST(Convex, KnownHits) {
   const Ray down{{0, 0, 2}, {0, 0, -1}};

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "client/common/handle_csv.hpp"
+#include "client/common/handle_text.hpp"
 #include "client/simulate/simulation.hpp"
 #include "service/pipeline/detect_handles.hpp"
 #include "service/transport/cloud_decoder.hpp"
@@ -56,7 +57,7 @@ TEST(FileDetection, SensorsPoseMovesTheHandles) {
 
 TEST(FileDetection, AnEmptyCloudHasItsStatus) {
   const handle_list_t list = detect_in_cloud(PointCloud{}, "nothing", 0, SourceConfig{});
-  EXPECT_EQ(list.status, handle_list_t::EMPTY_CLOUD);
+  EXPECT_EQ(status_name(list.status), "EMPTY_CLOUD");
   EXPECT_EQ(handle_csv_rows(list), "");
   EXPECT_TRUE(detection_stats(list).starts_with("nothing: EMPTY_CLOUD, 0 handles, 0 of 0 points"));
 }

@@ -9,8 +9,9 @@
 namespace graspd {
 namespace {
 
-double awkward(Rng& rng) {
-  return static_cast<double>(static_cast<float>(rng.uniform(-1, 1) * std::pow(10.0, rng.index(12) - 8)));
+/// On its own, because GCC 12 leaves the rounding to float out where it turns a row of these into vectors.
+[[gnu::noinline]] float awkward(Rng& rng) {
+  return static_cast<float>(rng.uniform(-1, 1) * std::pow(10.0, rng.index(12) - 8));
 }
 
 }  // namespace
@@ -41,16 +42,16 @@ handle_list_t sample_list(int num_handles, unsigned seed) {
     handle.segment_id = 3 * i;
     for (double* values :
          {handle.position, handle.rpy, handle.approach, handle.closing_axis, handle.major_axis}) {
-      for (int k = 0; k < 3; ++k) values[k] = awkward(rng);
+      for (int k = 0; k < 3; ++k) values[k] = static_cast<double>(awkward(rng));
     }
-    for (double& v : handle.orientation) v = awkward(rng);
-    handle.width = awkward(rng);
+    for (double& v : handle.orientation) v = static_cast<double>(awkward(rng));
+    handle.width = static_cast<double>(awkward(rng));
     for (int k = 0; k < 2; ++k) {
-      handle.gap[k] = awkward(rng);
-      handle.observed_free[k] = awkward(rng);
+      handle.gap[k] = static_cast<double>(awkward(rng));
+      handle.observed_free[k] = static_cast<double>(awkward(rng));
     }
     handle.num_points = 100 + i;
-    handle.score = awkward(rng);
+    handle.score = static_cast<double>(awkward(rng));
     list.handles.push_back(handle);
   }
   list.num_handles = num_handles;

@@ -18,8 +18,8 @@ TEST(Text, PrintedHoldsAnyLength) {
   EXPECT_EQ(printed("%s", ""), "");
 }
 
-TEST(Text, PrintableHasNoControlCharacters) {
-  EXPECT_EQ(printable("a\x1b[2Jb\nü"), "a?[2Jb?ü");
+TEST(Text, PlainLineHasNoControlCharacters) {
+  EXPECT_EQ(plain_line("a\x1b[2Jb\nü"), "a?[2Jb?ü");
 }
 
 TEST(Text, TablesLineUp) {
