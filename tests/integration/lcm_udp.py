@@ -33,6 +33,12 @@ class Bus:
     def close(self):
         self._socket.close()
 
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
     def send_datagram(self, data):
         self._socket.sendto(data, (GROUP, PORT))
 
@@ -77,6 +83,8 @@ class Bus:
     def _take_fragment(self, data, key):
         size, offset, number, count = struct.unpack_from(">IIHH", data, 8)
         payload = data[20:]
+        if number == 0 and b"\0" not in payload:
+            return
         message = self._partial.setdefault(key, {"channel": None, "chunks": {}})
         if number == 0:
             channel, payload = payload.split(b"\0", 1)

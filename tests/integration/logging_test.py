@@ -30,12 +30,14 @@ def read_events(path):
 
 class Logging(TrafficTest):
     def log_files(self):
-        return sorted(path for path in (self.folder / "log").rglob("*") if path.is_file())
+        return sorted((self.folder / "log").glob("record*"))
 
     def record(self, messages, *options):
         """The events that graspd-log writes of these (channel, bytes), file by file."""
         bus = self.open_bus()
-        logger = self.start_listening("graspd-log", "--output", self.folder / "log", *options)
+        (self.folder / "log").mkdir()
+        logger = self.start_listening("graspd-log", "--channel", "GRASPD_.*", "--min-free", 0, *options,
+                                      self.folder / "log/record")
         for channel, data in messages:
             self.publish_paced(bus, channel, data)
         wait_until(lambda: sum(f.stat().st_size for f in self.log_files()) >= sum(len(d) for _, d in messages),
@@ -52,11 +54,11 @@ class Logging(TrafficTest):
 
     def test_rotation_by_size(self):
         messages = [(CLOUDS, struct.pack(">q", i) + bytes(100_000)) for i in range(40)]
-        files = self.record(messages, "--max-size-mb", 1)
+        files = self.record(messages, "--max-size", 1)
         self.assertGreater(len(files), 3)
         self.assertEqual([event for events in files for event in events], messages)
         for path in self.log_files():
-            self.assertLess(path.stat().st_size, 1_300_000)
+            self.assertLess(path.stat().st_size, 1_000_000)
 
     @unittest.skipUnless(shutil.which("lcm-logplayer"), "lcm-logplayer is not installed")
     def test_lcm_plays_it_back(self):
@@ -76,34 +78,35 @@ class Logging(TrafficTest):
         self.addCleanup(subprocess.run, ["umount", str(folder)], check=True)
         return folder
 
-    def assert_one_line(self, program, *words):
-        errors = [line for line in program.err.splitlines() if any(str(w) in line for w in words)]
-        self.assertEqual(len(errors), 1, program.err)
+    def assert_one_line(self, program, folder):
+        """It ends with 1, and one line says what is wrong with the folder."""
         self.assertEqual(program.wait(), 1, program.err)
+        errors = [line for line in program.err.splitlines() if str(folder) in line]
+        self.assertEqual(len(errors), 1, program.err)
 
     def test_a_folder_that_cannot_be_written_to(self):
         file = self.folder / "a_file"
         file.touch()
         for folder in (self.mount("ro"), file, file / "below"):
             with self.subTest(folder=folder):
-                self.assert_one_line(self.start("graspd-log", "--output", folder), folder)
+                self.assert_one_line(self.start("graspd-log", folder / "record"), folder)
 
     def test_a_full_disk(self):
         disk = self.mount("size=1m")
         bus = self.open_bus()
-        logger = self.start_listening("graspd-log", "--output", disk, "--min-free-mb", 0)
+        logger = self.start_listening("graspd-log", "--min-free", 0, disk / "record")
 
         def ended():
             bus.publish(CLOUDS, bytes(50_000))
             return logger.process.poll() is not None
         wait_until(ended, "graspd-log to notice that the disk is full")
         self.assert_one_line(logger, disk)
-        for path in disk.rglob("*.lcm*"):
+        for path in disk.glob("record*"):
             self.assertGreater(len(read_events(path)), 0)
 
     def test_a_disk_below_the_floor(self):
         disk = self.mount("size=8m")
-        self.assert_one_line(self.start("graspd-log", "--output", disk, "--min-free-mb", 100), disk)
+        self.assert_one_line(self.start("graspd-log", "--min-free", 100, disk / "record"), disk)
 
 
 

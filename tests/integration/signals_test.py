@@ -40,15 +40,17 @@ class Signals(TrafficTest):
         answers = bus.on(HANDLES, TYPES["handle_list_t"])
         self.assertEqual([a.seq for a in answers], list(range(source.received)))
 
-    def test_daemon_finishes_what_it_has(self):
-        for number in (signal.SIGTERM, signal.SIGINT):
-            with self.subTest(signal=number):
-                self.stop_daemon_at_work(number, "finish")
+    def test_sigterm_and_finish(self):
+        self.stop_daemon_at_work(signal.SIGTERM, "finish")
 
-    def test_daemon_drops_what_it_has(self):
-        for number in (signal.SIGTERM, signal.SIGINT):
-            with self.subTest(signal=number):
-                self.stop_daemon_at_work(number, "drop")
+    def test_sigint_and_finish(self):
+        self.stop_daemon_at_work(signal.SIGINT, "finish")
+
+    def test_sigterm_and_drop(self):
+        self.stop_daemon_at_work(signal.SIGTERM, "drop")
+
+    def test_sigint_and_drop(self):
+        self.stop_daemon_at_work(signal.SIGINT, "drop")
 
     def assert_stops(self, program, number):
         code, _ = program.stop(number)
@@ -57,7 +59,7 @@ class Signals(TrafficTest):
     def test_listening_programs(self):
         for number in (signal.SIGTERM, signal.SIGINT):
             with self.subTest(signal=number):
-                for name, *options in (["graspd-listen"], ["graspd-log", "--output", self.folder / f"log{number}"],
+                for name, *options in (["graspd-listen"], ["graspd-log", self.folder / f"log{number}"],
                                        ["graspd-status"]):
                     self.assert_stops(self.start_listening(name, *options), number)
 

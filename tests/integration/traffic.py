@@ -16,12 +16,9 @@ class TrafficTest(GraspdTest):
     def record_frames(self, count, kind="cloud", **size):
         """Simulated frames as decoded messages."""
         frames = self.simulate(count, **size)
-        bus = Bus()
-        try:
+        with Bus() as bus:
             self.run_program("graspd-publish", "--type", kind, "--rate", 20, frames)
             wait_until(lambda: (bus.receive(0.02), len(bus.on(CLOUDS)) == count)[1], "the published frames")
-        finally:
-            bus.close()
         wire_type = TYPES["point_cloud_t" if kind == "cloud" else "depth_image_t"]
         return bus.on(CLOUDS, wire_type)
 

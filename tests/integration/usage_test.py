@@ -9,6 +9,10 @@ PROGRAMS = ["graspd", "graspd-detect", "graspd-publish", "graspd-simulate", "gra
             "graspd-status"]
 
 
+# What comes before an option that is wrong, where something has to.
+REQUIRED = {"graspd-detect": ["cloud.pcd"], "graspd-publish": ["cloud.pcd"], "graspd-log": ["a.log"]}
+
+
 class Usage(GraspdTest):
     def test_help(self):
         for name in PROGRAMS:
@@ -33,9 +37,13 @@ class Usage(GraspdTest):
 
     def test_unknown_option(self):
         for name in PROGRAMS:
-            program = self.run_program(name, "--no-such-option", code=2)
+            program = self.run_program(name, *REQUIRED.get(name, []), "--no-such-option", code=2)
             self.assertEqual(program.out, "")
             self.assertIn("--no-such-option", program.err)
+
+    def test_nothing_where_something_is_required(self):
+        for name in REQUIRED:
+            self.assertNotEqual(self.run_program(name, code=2).err, "")
 
     def test_option_without_its_value(self):
         for name in PROGRAMS:
