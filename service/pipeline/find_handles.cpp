@@ -14,7 +14,8 @@
 namespace graspd {
 namespace {
 
-constexpr float kGridCell = 0.01f;  // of the box queries [m]
+constexpr float kVoxelCell = 0.03f;  // of the grids for box queries [m]
+constexpr float kPointCell = 0.015f;
 constexpr int kVoxelTolerance =
     2;  // stray points a volume may have: counts are absolute, noise does not scale
 constexpr int kPointTolerance = 4;
@@ -116,7 +117,7 @@ CheckedCandidates find_handles(const PointCloud& cloud, const Surfaces& surfaces
   const DepthMap depth_map(cloud);
   const std::vector<std::int32_t> object_of_point =
       spread_to_points(surfaces.objects.of_point, surfaces.voxel_of_point);
-  const BoxQuery voxel_query(surfaces.cloud, kGridCell), point_query(cloud, kGridCell);
+  const BoxQuery voxel_query(surfaces.cloud, kVoxelCell), point_query(cloud, kPointCell);
   const ObjectOutlines outlines(surfaces.cloud, surfaces.objects.of_point, surfaces.objects.num_objects);
   const float area = config.downsample.leaf_size_m * config.downsample.leaf_size_m;
   const SceneView voxels{surfaces.cloud,   voxel_query,     surfaces.objects.of_point,
@@ -133,6 +134,8 @@ CheckedCandidates find_handles(const PointCloud& cloud, const Surfaces& surfaces
                          object_of_point,
                          area,
                          kPointTolerance};
+  const SearchInput input = surfaces.search_input();
+  const HandleSearch search(input, gripper, config.search);
   CheckedCandidates out;
   out.segments = start_reports(surfaces);
   std::vector<int> handles_of_object(static_cast<std::size_t>(surfaces.objects.num_objects));
@@ -140,8 +143,7 @@ CheckedCandidates find_handles(const PointCloud& cloud, const Surfaces& surfaces
     std::vector<std::uint8_t> wanted(handles_of_object.size());
     for (std::size_t k = 0; k < wanted.size(); ++k)
       wanted[k] = handles_of_object[k] < enough_before(round) ? 1 : 0;
-    const std::vector<Candidate> candidates =
-        search_handles(surfaces.search_input(), gripper, config.search, round, wanted);
+    const std::vector<Candidate> candidates = search.candidates(round, wanted);
     const std::vector<Candidate> left = prefilter(voxels, gripper, config.check, candidates, outlines, out);
     const Results fine = check_all(points, gripper, config.check, left, nullptr);
     for (std::size_t k = 0; k < left.size(); ++k) {

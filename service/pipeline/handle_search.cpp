@@ -15,11 +15,10 @@ namespace {
 
 constexpr std::size_t kMostSeedsInAllDirections = 16;
 
-using Directions = std::vector<Eigen::Vector3f>;
-
 /// Adds a unit vector unless one that differs by less than the angle is there; signless: opposite ones are
 /// the same.
-void add_distinct(Directions& directions, const Eigen::Vector3f& v, float max_cosine, bool signless) {
+void add_distinct(std::vector<Eigen::Vector3f>& directions, const Eigen::Vector3f& v, float max_cosine,
+                  bool signless) {
   if (!(v.norm() > 1e-3f)) return;
   const Eigen::Vector3f unit = v.normalized();
   for (const Eigen::Vector3f& other : directions) {
@@ -40,57 +39,34 @@ Eigen::Matrix3f gripper_axes(const Eigen::Vector3f& outward, const Eigen::Vector
 /// In-plane axis of the rectangle of least area around a segment: where the outline is cut off by something
 /// nearer, it follows the sides that are left better than the principal axes do.
 Eigen::Vector3f rectangle_axis(const PointCloud& cloud, const Segment& segment) {
-  constexpr int kAngles = 45;
-  constexpr std::size_t kMaxPoints = 600;
-  std::vector<Eigen::Vector2f> flat;
+  constexpr int kAngles = 36;
+  constexpr std::size_t kMaxPoints = 400;
+  std::vector<float> x, y;
   const std::size_t step = std::max<std::size_t>(1, segment.points.size() / kMaxPoints);
   for (std::size_t k = 0; k < segment.points.size(); k += step) {
     const Eigen::Vector3f d = cloud.point(segment.points[k]) - segment.centroid;
-    flat.emplace_back(d.dot(segment.major), d.dot(segment.minor));
+    x.push_back(d.dot(segment.major));
+    y.push_back(d.dot(segment.minor));
   }
   float best_area = std::numeric_limits<float>::infinity();
   Eigen::Vector3f best = segment.major;
   for (int i = 0; i < kAngles; ++i) {
     const float angle = std::numbers::pi_v<float> / 2 * static_cast<float>(i) / kAngles;
-    const Eigen::Vector2f u(std::cos(angle), std::sin(angle)), v(-u.y(), u.x());
-    Eigen::Vector2f lo(1e9f, 1e9f), hi(-1e9f, -1e9f);
-    for (const Eigen::Vector2f& p : flat) {
-      const Eigen::Vector2f q(p.dot(u), p.dot(v));
-      lo = lo.cwiseMin(q);
-      hi = hi.cwiseMax(q);
+    const float c = std::cos(angle), s = std::sin(angle);
+    float low_u = 1e9f, high_u = -1e9f, low_v = 1e9f, high_v = -1e9f;
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      const float u = c * x[k] + s * y[k], v = c * y[k] - s * x[k];
+      low_u = std::min(low_u, u);
+      high_u = std::max(high_u, u);
+      low_v = std::min(low_v, v);
+      high_v = std::max(high_v, v);
     }
-    const float area = (hi - lo).prod();
+    const float area = (high_u - low_u) * (high_v - low_v);
     if (area >= best_area) continue;
     best_area = area;
-    best = u.x() * segment.major + u.y() * segment.minor;
+    best = c * segment.major + s * segment.minor;
   }
   return best;
-}
-
-/// One candidate a band of width e along an axis of the segment, from the centroid both ways (paper, section
-/// 5).
-void add_bands(const PointCloud& cloud, const Segment& segment, std::int32_t s, std::int32_t object,
-               const Eigen::Vector3f& axis, float thickness_m, std::vector<Candidate>& out) {
-  struct Band {
-    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-    int n = 0;
-  };
-  float reach = 0;
-  for (const std::uint32_t i : segment.points)
-    reach = std::max(reach, std::abs(axis.dot(cloud.point(i) - segment.centroid)));
-  const int half = static_cast<int>(reach / thickness_m + 0.5f);
-  std::vector<Band> bands(static_cast<std::size_t>(2 * half + 1));
-  for (const std::uint32_t i : segment.points) {
-    const float along = axis.dot(cloud.point(i) - segment.centroid) / thickness_m;
-    Band& band = bands[static_cast<std::size_t>(
-        std::clamp(static_cast<int>(std::floor(along + 0.5f)) + half, 0, 2 * half))];
-    band.sum += cloud.point(i);
-    ++band.n;
-  }
-  constexpr int kMinBandPoints = 8;
-  for (const Band& band : bands)
-    if (band.n >= kMinBandPoints)
-      out.push_back({band.sum / static_cast<float>(band.n), gripper_axes(segment.normal, axis), s, object});
 }
 
 /// Mean normal of the object's voxels near a seed.
@@ -106,13 +82,37 @@ Eigen::Vector3f face_normal(const SearchInput& in, const std::vector<std::uint32
   return sum.norm() > 1e-3f ? sum.normalized() : n;
 }
 
-/// For each occupied cell of the spacing the point nearest to the mean of those in it.
-std::vector<std::uint32_t> spread_seeds(const PointCloud& cloud, const std::vector<std::uint32_t>& points,
-                                        float spacing_m) {
+std::vector<std::vector<std::uint32_t>> points_by_object(const Objects& objects) {
+  std::vector<std::vector<std::uint32_t>> points(static_cast<std::size_t>(objects.num_objects));
+  for (std::uint32_t i = 0; i < objects.of_point.size(); ++i)
+    if (objects.of_point[i] >= 0) points[static_cast<std::size_t>(objects.of_point[i])].push_back(i);
+  return points;
+}
+
+}  // namespace
+
+HandleSearch::HandleSearch(const SearchInput& input, const Gripper& gripper, const HandleSearchConfig& config)
+    : in_(input),
+      gripper_(gripper),
+      config_(config),
+      max_cosine_(std::cos(config.distinct_angle_deg * std::numbers::pi_v<float> / 180)),
+      rectangle_axes_(input.segments.list.size()),
+      seeds_(static_cast<std::size_t>(input.objects.num_objects)) {
+  if (!config.seeds) return;
+  tbb::parallel_for(std::size_t{0}, rectangle_axes_.size(), [&](std::size_t s) {
+    rectangle_axes_[s] = rectangle_axis(in_.cloud, in_.segments.list[s]);
+  });
+  const std::vector<std::vector<std::uint32_t>> points = points_by_object(in_.objects);
+  tbb::parallel_for(std::size_t{0}, points.size(),
+                    [&](std::size_t k) { seeds_[k] = spread_seeds(points[k]); });
+}
+
+/// In each occupied cell of the spacing the point nearest to the mean of those in it.
+std::vector<HandleSearch::Seed> HandleSearch::spread_seeds(const std::vector<std::uint32_t>& points) const {
   PointCloud own;
-  for (const std::uint32_t i : points) own.push_back(cloud.point(i));
-  const CellOrder order = order_by_cell(own, spacing_m);
-  std::vector<std::uint32_t> seeds;
+  for (const std::uint32_t i : points) own.push_back(in_.cloud.point(i));
+  const CellOrder order = order_by_cell(own, config_.seed_spacing_m);
+  std::vector<Seed> seeds;
   for (std::size_t c = 0; c < order.num_cells(); ++c) {
     Eigen::Vector3f mean = Eigen::Vector3f::Zero();
     for (const std::uint32_t k : order.cell(c)) mean += own.point(k);
@@ -120,123 +120,120 @@ std::vector<std::uint32_t> spread_seeds(const PointCloud& cloud, const std::vect
     const auto nearer = [&](std::uint32_t a, std::uint32_t b) {
       return (own.point(a) - mean).squaredNorm() < (own.point(b) - mean).squaredNorm();
     };
-    seeds.push_back(points[*std::min_element(order.cell(c).begin(), order.cell(c).end(), nearer)]);
+    const std::uint32_t seed = points[*std::min_element(order.cell(c).begin(), order.cell(c).end(), nearer)];
+    if (in_.segments.of_point[seed] >= 0) seeds.push_back({seed, outward_directions(points, seed)});
   }
   return seeds;
 }
 
-class SeedSearch {
- public:
-  SeedSearch(const SearchInput& in, const HandleSearchConfig& config) : in_(in), config_(config) {
-    max_cosine_ = std::cos(config.distinct_angle_deg * std::numbers::pi_v<float> / 180);
-    rectangle_axes_.resize(in.segments.list.size());
-    tbb::parallel_for(std::size_t{0}, rectangle_axes_.size(), [&](std::size_t s) {
-      rectangle_axes_[s] = rectangle_axis(in.cloud, in.segments.list[s]);
-    });
+HandleSearch::Directions HandleSearch::outward_directions(const std::vector<std::uint32_t>& points,
+                                                          std::uint32_t seed) const {
+  const Eigen::Vector3f to_sensor = (in_.cloud.viewpoint - in_.cloud.point(seed)).normalized();
+  const Eigen::Vector3f n = face_normal(in_, points, seed);
+  Directions outward;
+  add_distinct(outward, n, max_cosine_, false);
+  if (in_.support) {
+    add_distinct(outward, in_.support->plane.normal, max_cosine_, false);
+    add_distinct(outward, n + in_.support->plane.normal, max_cosine_, false);
   }
+  add_distinct(outward, to_sensor, max_cosine_, false);
+  std::erase_if(outward,
+                [&](const Eigen::Vector3f& o) { return o.dot(to_sensor) < config_.min_facing_cosine; });
+  return outward;
+}
 
-  void add(const std::vector<std::uint32_t>& points, std::int32_t object, SearchRound round,
-           std::vector<Candidate>& out) const {
-    const std::vector<std::uint32_t> seeds = spread_seeds(in_.cloud, points, config_.seed_spacing_m);
-    const std::size_t most = round == SearchRound::kAllDirections ? kMostSeedsInAllDirections : seeds.size();
-    for (std::size_t k = 0; k < std::min(most, seeds.size()); ++k) {
-      const std::uint32_t seed = seeds[k * seeds.size() / std::min(most, seeds.size())];
-      const std::int32_t s = in_.segments.of_point[seed];
-      if (s < 0) continue;
-      Directions outward = approaches(points, seed);
-      if (round == SearchRound::kAllDirections) outward.resize(std::min<std::size_t>(outward.size(), 2));
-      for (std::size_t o = 0; o < outward.size(); ++o) {
-        const Directions axes = closing_axes(static_cast<std::size_t>(s), outward[o], round);
-        // The surface's own normal and axes first (paper, section 5), the support's normal next to them.
-        for (std::size_t a = 0; a < axes.size(); ++a) {
-          const bool first = o < 2 && a < 2;
-          if (round == SearchRound::kAllDirections || first == (round == SearchRound::kSurface))
-            out.push_back({in_.cloud.point(seed), gripper_axes(outward[o], axes[a]), s, object});
-        }
+HandleSearch::Directions HandleSearch::major_axes(std::size_t s, const Eigen::Vector3f& outward,
+                                                  SearchRound round) const {
+  const Segment& segment = in_.segments.list[s];
+  Directions suggested{rectangle_axes_[s], segment.normal.cross(rectangle_axes_[s]), segment.major,
+                       segment.minor};
+  if (in_.support) {
+    suggested.push_back(in_.support->plane.normal);
+    suggested.push_back(in_.support->plane.normal.cross(outward));
+  }
+  Directions axes;
+  for (const Eigen::Vector3f& axis : suggested) {
+    const Eigen::Vector3f across = axis - axis.dot(outward) * outward;
+    if (across.norm() < 0.3f) continue;
+    add_distinct(axes, across, max_cosine_, true);
+    add_distinct(axes, across.cross(outward), max_cosine_, true);
+  }
+  return round == SearchRound::kAllDirections ? other_axes(outward, axes) : axes;
+}
+
+/// Evenly spread axes, less those that were tried.
+HandleSearch::Directions HandleSearch::other_axes(const Eigen::Vector3f& outward,
+                                                  const Directions& tried) const {
+  const Eigen::Vector3f u = outward.unitOrthogonal(), v = outward.cross(u);
+  Directions axes;
+  for (int i = 0; i < config_.all_directions; ++i) {
+    const float angle =
+        std::numbers::pi_v<float> * static_cast<float>(i) / static_cast<float>(config_.all_directions);
+    const Eigen::Vector3f axis = std::cos(angle) * u + std::sin(angle) * v;
+    const auto same = [&](const Eigen::Vector3f& t) { return std::abs(t.dot(axis)) > max_cosine_; };
+    if (std::none_of(tried.begin(), tried.end(), same)) axes.push_back(axis);
+  }
+  return axes;
+}
+
+/// One candidate a band of width e along an axis of the segment, from the centroid both ways (paper, section
+/// 5).
+void HandleSearch::add_bands(std::size_t s, const Eigen::Vector3f& axis, std::vector<Candidate>& out) const {
+  constexpr int kMinBandPoints = 8;
+  struct Band {
+    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+    int n = 0;
+  };
+  const Segment& segment = in_.segments.list[s];
+  const auto along = [&](std::uint32_t i) {
+    return axis.dot(in_.cloud.point(i) - segment.centroid) / gripper_.finger_thickness_m;
+  };
+  float reach = 0;
+  for (const std::uint32_t i : segment.points) reach = std::max(reach, std::abs(along(i)));
+  const int half = static_cast<int>(reach + 0.5f);
+  std::vector<Band> bands(static_cast<std::size_t>(2 * half + 1));
+  for (const std::uint32_t i : segment.points) {
+    const int k = std::clamp(static_cast<int>(std::floor(along(i) + 0.5f)) + half, 0, 2 * half);
+    bands[static_cast<std::size_t>(k)].sum += in_.cloud.point(i);
+    ++bands[static_cast<std::size_t>(k)].n;
+  }
+  for (const Band& band : bands)
+    if (band.n >= kMinBandPoints)
+      out.push_back({band.sum / static_cast<float>(band.n), gripper_axes(segment.normal, axis),
+                     static_cast<std::int32_t>(s), in_.objects.of_segment[s]});
+}
+
+void HandleSearch::add_seeds(std::size_t object, SearchRound round, std::vector<Candidate>& out) const {
+  const std::vector<Seed>& seeds = seeds_[object];
+  const bool all = round == SearchRound::kAllDirections;
+  const std::size_t num_seeds = all ? std::min(kMostSeedsInAllDirections, seeds.size()) : seeds.size();
+  for (std::size_t k = 0; k < num_seeds; ++k) {
+    const Seed& seed = seeds[k * seeds.size() / num_seeds];
+    const std::int32_t s = in_.segments.of_point[seed.point];
+    const std::size_t num_outward = all ? std::min<std::size_t>(2, seed.outward.size()) : seed.outward.size();
+    for (std::size_t o = 0; o < num_outward; ++o) {
+      const Directions axes = major_axes(static_cast<std::size_t>(s), seed.outward[o], round);
+      // The surface's own normal and axes first (paper, section 5), the support's normal next to them.
+      for (std::size_t a = 0; a < axes.size(); ++a) {
+        const bool first = o < 2 && a < 2;
+        if (all || first == (round == SearchRound::kSurface))
+          out.push_back({in_.cloud.point(seed.point), gripper_axes(seed.outward[o], axes[a]), s,
+                         static_cast<std::int32_t>(object)});
       }
     }
   }
+}
 
- private:
-  [[nodiscard]] Directions approaches(const std::vector<std::uint32_t>& points, std::uint32_t seed) const {
-    const Eigen::Vector3f to_sensor = (in_.cloud.viewpoint - in_.cloud.point(seed)).normalized();
-    const Eigen::Vector3f n = face_normal(in_, points, seed);
-    Directions outward;
-    add_distinct(outward, n, max_cosine_, false);
-    if (in_.support) {
-      add_distinct(outward, in_.support->plane.normal, max_cosine_, false);
-      add_distinct(outward, n + in_.support->plane.normal, max_cosine_, false);
-    }
-    add_distinct(outward, to_sensor, max_cosine_, false);
-    std::erase_if(outward,
-                  [&](const Eigen::Vector3f& o) { return o.dot(to_sensor) < config_.min_facing_cosine; });
-    return outward;
-  }
-
-  [[nodiscard]] Directions closing_axes(std::size_t s, const Eigen::Vector3f& outward,
-                                        SearchRound round) const {
-    const Segment& segment = in_.segments.list[s];
-    Directions suggested{rectangle_axes_[s], segment.normal.cross(rectangle_axes_[s]), segment.major,
-                         segment.minor};
-    if (in_.support) {
-      suggested.push_back(in_.support->plane.normal);
-      suggested.push_back(in_.support->plane.normal.cross(outward));
-    }
-    Directions axes;
-    for (const Eigen::Vector3f& axis : suggested) {
-      const Eigen::Vector3f across = axis - axis.dot(outward) * outward;
-      if (across.norm() < 0.3f) continue;
-      add_distinct(axes, across, max_cosine_, true);
-      add_distinct(axes, across.cross(outward), max_cosine_, true);
-    }
-    return round == SearchRound::kAllDirections ? other_directions(outward, axes) : axes;
-  }
-
-  /// Evenly spread closing axes, less those that were tried.
-  [[nodiscard]] Directions other_directions(const Eigen::Vector3f& outward, const Directions& tried) const {
-    const Eigen::Vector3f u = outward.unitOrthogonal(), v = outward.cross(u);
-    Directions axes;
-    for (int i = 0; i < config_.all_directions; ++i) {
-      const float angle =
-          std::numbers::pi_v<float> * static_cast<float>(i) / static_cast<float>(config_.all_directions);
-      const Eigen::Vector3f axis = std::cos(angle) * u + std::sin(angle) * v;
-      const auto same = [&](const Eigen::Vector3f& t) { return std::abs(t.dot(axis)) > max_cosine_; };
-      if (std::none_of(tried.begin(), tried.end(), same)) axes.push_back(axis);
-    }
-    return axes;
-  }
-
-  const SearchInput& in_;
-  const HandleSearchConfig& config_;
-  float max_cosine_ = 1;
-  Directions rectangle_axes_;
-};
-
-}  // namespace
-
-std::vector<Candidate> search_handles(const SearchInput& input, const Gripper& gripper,
-                                      const HandleSearchConfig& config, SearchRound round,
-                                      const std::vector<std::uint8_t>& wanted) {
+std::vector<Candidate> HandleSearch::candidates(SearchRound round,
+                                                const std::vector<std::uint8_t>& wanted) const {
   std::vector<Candidate> candidates;
-  if (config.bands && round == SearchRound::kSurface)
-    for (std::size_t s = 0; s < input.segments.list.size(); ++s) {
-      const Segment& segment = input.segments.list[s];
-      for (const Eigen::Vector3f& axis : {segment.major, segment.minor})
-        add_bands(input.cloud, segment, static_cast<std::int32_t>(s), input.objects.of_segment[s], axis,
-                  gripper.finger_thickness_m, candidates);
+  if (config_.bands && round == SearchRound::kSurface)
+    for (std::size_t s = 0; s < in_.segments.list.size(); ++s) {
+      add_bands(s, in_.segments.list[s].major, candidates);
+      add_bands(s, in_.segments.list[s].minor, candidates);
     }
-  if (!config.seeds) return candidates;
-  std::vector<std::vector<std::uint32_t>> points(wanted.size());
-  for (std::uint32_t i = 0; i < input.cloud.size(); ++i)
-    if (input.objects.of_point[i] >= 0 && wanted[static_cast<std::size_t>(input.objects.of_point[i])])
-      points[static_cast<std::size_t>(input.objects.of_point[i])].push_back(i);
-  const SeedSearch search(input, config);
-  std::vector<std::vector<Candidate>> found(points.size());
-  tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t object) {
-    if (!points[object].empty())
-      search.add(points[object], static_cast<std::int32_t>(object), round, found[object]);
-  });
-  for (const auto& more : found) candidates.insert(candidates.end(), more.begin(), more.end());
+  for (std::size_t object = 0; object < seeds_.size(); ++object)
+    if (wanted[object]) add_seeds(object, round, candidates);
   return candidates;
 }
 

@@ -53,9 +53,36 @@ enum class SearchRound : std::uint8_t { kSurface, kSurroundings, kAllDirections 
 inline constexpr std::array kSearchRounds{SearchRound::kSurface, SearchRound::kSurroundings,
                                           SearchRound::kAllDirections};
 
-/// wanted: 1 for each object that candidates are asked for.
-[[nodiscard]] std::vector<Candidate> search_handles(const SearchInput& input, const Gripper& gripper,
-                                                    const HandleSearchConfig& config, SearchRound round,
-                                                    const std::vector<std::uint8_t>& wanted);
+class HandleSearch {
+ public:
+  /// The arguments must outlive the search.
+  HandleSearch(const SearchInput& input, const Gripper& gripper, const HandleSearchConfig& config);
+
+  /// wanted: 1 for each object that candidates are asked for.
+  [[nodiscard]] std::vector<Candidate> candidates(SearchRound round,
+                                                  const std::vector<std::uint8_t>& wanted) const;
+
+ private:
+  using Directions = std::vector<Eigen::Vector3f>;
+  struct Seed {
+    std::uint32_t point;
+    Directions outward;  // opposite to the approaches worth trying, the best first
+  };
+  [[nodiscard]] std::vector<Seed> spread_seeds(const std::vector<std::uint32_t>& points) const;
+  [[nodiscard]] Directions outward_directions(const std::vector<std::uint32_t>& points,
+                                              std::uint32_t seed) const;
+  [[nodiscard]] Directions major_axes(std::size_t segment, const Eigen::Vector3f& outward,
+                                      SearchRound round) const;
+  [[nodiscard]] Directions other_axes(const Eigen::Vector3f& outward, const Directions& tried) const;
+  void add_bands(std::size_t segment, const Eigen::Vector3f& axis, std::vector<Candidate>& out) const;
+  void add_seeds(std::size_t object, SearchRound round, std::vector<Candidate>& out) const;
+
+  const SearchInput& in_;
+  const Gripper& gripper_;
+  const HandleSearchConfig& config_;
+  float max_cosine_;                      // between directions that are distinct
+  Directions rectangle_axes_;             // of each segment
+  std::vector<std::vector<Seed>> seeds_;  // of each object
+};
 
 }  // namespace graspd
