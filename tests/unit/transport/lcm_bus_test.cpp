@@ -136,26 +136,37 @@ TEST(LcmBus, HandlersExceptionsComeOutOfWait) {
   EXPECT_EQ(calls, 4);
 }
 
-TEST(LcmBus, PublishesFromManyThreads) {
-  LcmBus bus("memq://");
-  std::vector<Received> received;
+/// Over UDP: memq hands messages from thread to thread under GLib's locks, which ThreadSanitizer does not
+/// see.
+std::string publish_from_threads() {
   constexpr int kThreads = 4;
-  constexpr int kEach = 200;
-  bus.subscribe("T.*", store_in(received), kThreads * kEach);
+  constexpr int kEach = 25;  // together less than the smallest receive buffer
+  const std::string url = resolve_lcm_url("udpm://239.255.76.67:7667?ttl=0");
+  LcmBus sender(url);
+  LcmBus receiver(url);
+  std::vector<Received> received;
+  receiver.subscribe("T.*", store_in(received), kThreads * kEach);
   std::vector<std::thread> threads;
   for (int t = 0; t < kThreads; ++t) {
-    threads.emplace_back([&bus, channel = std::string("T").append(std::to_string(t))] {
-      for (int i = 0; i < kEach; ++i) bus.publish(channel, payload(100, i));
+    threads.emplace_back([&sender, channel = std::string("T").append(std::to_string(t))] {
+      for (int i = 0; i < kEach; ++i) sender.publish(channel, payload(100, i));
     });
   }
-  std::vector<int> next(kThreads, 0);
-  for (int i = 0; i < kThreads * kEach; ++i) ASSERT_EQ(bus.wait(kLong), LcmBus::Wait::kHandled);
   for (std::thread& thread : threads) thread.join();
-  ASSERT_EQ(received.size(), static_cast<std::size_t>(kThreads * kEach));
+  while (received.size() < static_cast<std::size_t>(kThreads * kEach)) receiver.wait(kLong);
+  std::vector<int> next(kThreads, 0);
   for (const Received& message : received) {
     const auto t = static_cast<std::size_t>(message.channel[1] - '0');
-    ASSERT_EQ(message.bytes, payload(100, next[t]++));  // each thread's in its order
+    if (message.bytes != payload(100, next[t]++)) return message.channel + " is not in its order";
   }
+  return "in order";
+}
+
+TEST(LcmBus, PublishesFromManyThreads) {
+  const auto result = in_private_network(kMulticast, publish_from_threads);
+  if (result.denied) GTEST_SKIP() << result.problem;
+  EXPECT_EQ(result.problem, "");
+  EXPECT_EQ(result.text, "in order");
 }
 
 TEST(LcmBus, SignalsCountAsTimeouts) {
