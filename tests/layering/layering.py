@@ -50,7 +50,7 @@ LIBRARIES = [
     ("LCM", re.compile(r"lcm/"), {"service/transport", "client", "tests"}),
     ("yaml-cpp", re.compile(r"yaml-cpp/"), {"service/config", "tests"}),
     ("spdlog", re.compile(r"(spdlog|fmt)/"), {"service/runtime", "service/daemon", "client"}),
-    ("CLI11", re.compile(r"CLI/"), {"service/daemon", "client"}),
+    ("CLI11", re.compile(r"CLI/"), {"service/daemon", "client", "tests"}),
     ("PCL", re.compile(r"pcl/"), {"service/pipeline", "client", "tests"}),
     ("Eigen", re.compile(r"Eigen/"), {"service/pipeline", "service/transport", "service/config", "service/daemon",
                                       "client", "tests"}),

@@ -82,6 +82,24 @@ TEST(Neighborhoods, PointsOnCellBorders) {
     }
 }
 
+TEST(Neighborhoods, SkippedPointsHaveNoneButAreNeighbours) {
+  const PointCloud cloud = random_cloud(1500, {-0.05f, -0.04f, -0.03f}, {0.05f, 0.04f, 0.03f}, 12);
+  std::vector<std::uint8_t> skip(cloud.size());
+  for (std::size_t i = 0; i < skip.size(); ++i) skip[i] = cloud.z[i] < -0.005f || i % 7 == 0 ? 1 : 0;
+  const Neighborhoods all = find_neighborhoods(cloud, {0.009f}),
+                      some = find_neighborhoods(cloud, {0.009f}, skip);
+  ASSERT_EQ(some.size(), cloud.size());
+  for (std::size_t s = 0; s < cloud.size(); ++s) {
+    const auto expected = all.of(s), found = some.of(s);
+    if (skip[s])
+      EXPECT_TRUE(found.empty());
+    else
+      EXPECT_TRUE(std::equal(expected.begin(), expected.end(), found.begin(), found.end())) << "point " << s;
+  }
+  const Neighborhoods none = find_neighborhoods(cloud, {0.009f}, std::vector<std::uint8_t>(cloud.size(), 1));
+  for (std::size_t s = 0; s < cloud.size(); ++s) EXPECT_TRUE(none.of(s).empty());
+}
+
 TEST(Neighborhoods, OrderWithinAListFollowsPositionsNotIndices) {
   const PointCloud cloud = random_cloud(400, {0, 0, 0}, {0.03f, 0.03f, 0.03f}, 11);
   PointCloud reversed;

@@ -26,7 +26,7 @@ Grouped group(const AnalyticScene& scene, bool with_support = true) {
   Grouped g;
   g.surfaces = voxel_surfaces(render(scene));
   const VoxelSurfaces& s = g.surfaces;
-  if (with_support) g.support = find_support(s.cloud, s.normals, kTestLeaf, {});
+  if (with_support) g.support = find_support(s.cloud, {});
   const auto is_support = support_points(g.support);
   g.segments = build_segments(s.cloud, grow_regions(s.normals, s.neighborhoods, s.is_edge, is_support, {}),
                               kTestLeaf, {});

@@ -15,7 +15,7 @@ namespace graspd {
 namespace {
 
 std::optional<Support> support_of(const VoxelSurfaces& s) {
-  return find_support(s.cloud, s.normals, kTestLeaf, {});
+  return find_support(s.cloud, {});
 }
 
 /// The plane with this normal through this point.
@@ -79,29 +79,26 @@ TEST(Support, SurvivesNoise) {
 }
 
 TEST(Support, NoneWithoutAPlane) {
-  EXPECT_FALSE(find_support({}, {}, kTestLeaf, {}));
+  EXPECT_FALSE(find_support({}, {}));
   const PointCloud ball = sphere_shell({0, 0, 0.5f}, 0.06f, 4000);
-  const Neighborhoods near = find_neighborhoods(ball, {kTestRadius});
-  EXPECT_FALSE(find_support(ball, estimate_normals(ball, near), kTestLeaf, {}));
+  EXPECT_FALSE(find_support(ball, {}));
 }
 
 TEST(Support, NoneWhereThePlaneIsTooSmall) {
   // 0.1 m x 0.1 m is less than the 0.03 m2 asked for.
   PointCloud patch = grid_patch({0, 0, 0}, {0.003f, 0, 0}, {0, 0.003f, 0}, 33, 33);
   patch.viewpoint = {0, 0, 1};
-  const Neighborhoods near = find_neighborhoods(patch, {kTestRadius});
-  const Normals normals = estimate_normals(patch, near);
-  EXPECT_FALSE(find_support(patch, normals, kTestLeaf, {}));
+  EXPECT_FALSE(find_support(patch, {}));
   SupportConfig smaller;
   smaller.min_area_m2 = 0.005f;
-  EXPECT_TRUE(find_support(patch, normals, kTestLeaf, smaller));
+  EXPECT_TRUE(find_support(patch, smaller));
 }
 
 TEST(Support, NoneWhenNotAskedFor) {
   const VoxelSurfaces s = voxel_surfaces(render(three_objects()));
   SupportConfig off;
   off.enabled = false;
-  EXPECT_FALSE(find_support(s.cloud, s.normals, kTestLeaf, off));
+  EXPECT_FALSE(find_support(s.cloud, off));
 }
 
 TEST(Support, FloorOfABin) {
