@@ -148,6 +148,11 @@ class GraspdTest(unittest.TestCase):
         self.assertIsNone(program.process.poll(), f"{name} ended early: {program.err}")
         return program
 
+    @staticmethod
+    def probe(bus, channel, data, arrived, what):
+        """Sends until it arrives: a socket that is there does not mean yet that the program has subscribed."""
+        wait_until(lambda: (bus.publish(channel, data), arrived())[1], what)
+
     def start_daemon(self, bus, config=None):
         """The daemon, up and serving: its first status has arrived."""
         daemon = self.start_listening("graspd", *(["--config", config] if config else []))

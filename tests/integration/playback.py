@@ -5,6 +5,7 @@ import csv
 import math
 import signal
 from array import array
+from types import SimpleNamespace
 
 from harness import CLOUDS, HANDLES, TYPES, GraspdTest, wait_until
 
@@ -15,6 +16,7 @@ sources:
     policy: all
     queue_length: 100
 """
+PROBE = "probe"
 # What a handle is; the rest of a row tells when and on which channel it came.
 HANDLE_COLUMNS = ["px", "py", "pz", "qw", "qx", "qy", "qz", "width", "score"]
 
@@ -23,10 +25,22 @@ def handles_by_frame(text):
     """frame -> its handles in order, each as the strings of the CSV."""
     frames = {}
     for row in csv.DictReader(text.splitlines()):
+        if row["frame"] == PROBE:
+            continue
         handles = frames.setdefault(row["frame"], [])
         if row["px"]:
             handles.append(tuple(row[column] for column in HANDLE_COLUMNS))
     return frames
+
+
+def empty_list(frame):
+    """An answer without handles for a frame of that name, as a message."""
+    gripper = SimpleNamespace(name="", aperture=0, finger_width=0, finger_thickness=0, finger_length=0, grasp_depth=0,
+                              min_gap=0)
+    return TYPES["handle_list_t"].encode(
+        utime=0, seq=0, source_channel="", frame_name=frame, gripper=gripper, status=0, status_text="", points_in=0,
+        points_used=0, num_segments=0, num_candidates=0, num_candidate_failures=0, candidate_failures=[],
+        num_segment_failures=0, segment_failures=[], num_stages=0, stages=[], latency=0, num_handles=0, handles=[])
 
 
 def write_pcd(path, image):
@@ -53,6 +67,9 @@ class PlaybackTest(GraspdTest):
         bus = self.open_bus()
         self.start_daemon(bus, self.write_config(CONFIG))
         listener = self.start_listening("graspd-listen", "--format", "csv", "--empty-rows", "--channel", HANDLES)
+        self.probe(bus, HANDLES, empty_list(PROBE), lambda: PROBE in listener.out, "the listener's first line")
+        bus.receive(0.1)
+        bus.messages.clear()
         publisher = self.start("graspd-publish", "--type", kind, "--rate", 10, folder)
         answers = self.await_answers(bus, count)
         self.assertEqual(publisher.wait(), 0, publisher.err)
