@@ -70,24 +70,18 @@ demo_enter_network() {
 
 # Frame size that the kernel's receive buffer takes: a message that does not fit is lost without a word.
 demo_frame_size() {
-  demo_size=(--width 640 --height 480)
+  demo_width=640
   if [ "${GRASPD_DEMO_BUFFER:-$demo_wanted_buffer}" -lt 1048576 ]; then
-    demo_size=(--width 320 --height 240)
+    demo_width=320
     say "net.core.rmem_max is $GRASPD_DEMO_BUFFER bytes, too little for VGA frames; the demo takes 320 x 240."
     say "To have it larger:  sudo sysctl -w net.core.rmem_max=$demo_wanted_buffer"
   fi
 }
 
+# In a session of its own, so that Ctrl-C reaches this script alone, which then ends the programs in their order.
 demo_start() {
-  "$@" &
+  setsid "$@" &
   demo_pids+=($!)
-}
-
-# Ends the processes that still run, the youngest first, and waits for each.
-demo_stop() {
-  local i
-  for ((i = ${#demo_pids[@]} - 1; i >= 0; --i)); do demo_end "${demo_pids[i]}"; done
-  demo_pids=()
 }
 
 demo_end() {
@@ -95,12 +89,89 @@ demo_end() {
   wait "$1" 2>/dev/null || true
 }
 
-# Waits until so many sockets listen on LCM's port.
-demo_await_sockets() {
+# Ends the programs that still run, the youngest first, and waits for each.
+demo_stop() {
   local i
-  for ((i = 0; i < 200; ++i)); do
-    [ "$(awk '$2 ~ /:1DF3$/' /proc/net/udp | wc -l)" -lt "$1" ] || return 0
-    sleep 0.05
+  for ((i = ${#demo_pids[@]} - 1; i >= 0; --i)); do demo_end "${demo_pids[i]}"; done
+  demo_pids=()
+}
+
+# The log, the handles and the truth of the last demo make room for this one.
+demo_prepare_folder() {
+  mkdir -p "$demo_log" || fail "the log folder $demo_log cannot be made"
+  demo_log=$(readlink -f "$demo_log")
+  rm -f "$demo_log"/demo.lcmlog* "$demo_log"/handles.jsonl "$demo_log"/truth.jsonl
+}
+
+# The newest list on a terminal; elsewhere one list a second would do, so every tenth.
+demo_show_table() {
+  if [ -t 1 ]; then
+    demo_start build/bin/graspd-listen --rows 8
+  else
+    demo_start build/bin/graspd-listen --rows 8 > >(awk 'BEGIN { RS = ""; ORS = "\n\n" } NR % 10 == 1')
+  fi
+}
+
+demo_start_programs() {
+  local bin=build/bin
+  export LCM_DEFAULT_URL="udpm://$demo_group:7667?ttl=0"
+  demo_show_table
+  demo_start "$bin/graspd-listen" --format json >"$demo_log/handles.jsonl" 2>"$demo_log/graspd-listen.log"
+  demo_start "$bin/graspd-log" --channel 'GRASPD_.*' --max-size 1000 "$demo_log/demo.lcmlog" 2>"$demo_log/graspd-log.log"
+  demo_start "$bin/graspd" 2>"$demo_log/graspd.log"
+  # Everyone is there when the daemon's health arrives and is in the log.
+  if ! "$bin/graspd-status" --format json --count 1 --timeout 20 >/dev/null || ! demo_await_log; then
+    cat "$demo_log"/*.log >&2
+    fail "the programs do not come up"
+  fi
+  demo_start "$bin/graspd-simulate" --type depth --rate 10 --new-scene-every 20 --seed "$demo_seed" \
+    --width "$demo_width" --truth "$demo_log/truth.jsonl" 2>"$demo_log/graspd-simulate.log"
+  demo_camera=${demo_pids[-1]}
+}
+
+demo_await_log() {
+  local i
+  for ((i = 0; i < 100; ++i)); do
+    if [ -s "$demo_log/demo.lcmlog.00" ]; then return 0; fi
+    sleep 0.1
   done
-  fail "the programs do not come up; see the messages above"
+  return 1
+}
+
+# Runs until the time is over, Ctrl-C, or the camera's end.
+demo_wait() {
+  local limit=$demo_seconds clock
+  if [ "$limit" = forever ]; then limit=infinity; fi
+  sleep "$limit" &
+  clock=$!
+  wait -n "$clock" "$demo_camera" || true
+  kill "$clock" 2>/dev/null || true
+  wait "$clock" 2>/dev/null || true
+}
+
+# Gives the frames that are on their way time to be answered.
+demo_await_answers() {
+  local i
+  for ((i = 0; i < 50; ++i)); do
+    if [ "$(wc -l <"$demo_log/handles.jsonl")" -ge "$(wc -l <"$demo_log/truth.jsonl")" ]; then return; fi
+    sleep 0.1
+  done
+}
+
+demo_run() {
+  demo_enter_network "$@"
+  demo_frame_size
+  demo_prepare_folder
+  trap demo_stop EXIT
+  trap : INT TERM  # ends the waiting, not the script
+  demo_start_programs
+  demo_wait
+  demo_end "$demo_camera"
+  demo_await_answers
+  demo_stop
+  say ""
+  say "Summary of $demo_width x $((demo_width * 3 / 4)) frames at 10 Hz, a new scene every 2 s:"
+  python3 client/demo_summary.py "$demo_log/handles.jsonl" "$demo_log/truth.jsonl" || demo_failed=yes
+  say "  the log, for lcm-logplayer: $demo_log/demo.lcmlog.00"
+  if [ "${demo_failed:-no}" = yes ]; then fail "not every frame was answered"; fi
 }
