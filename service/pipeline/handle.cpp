@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/pipeline/handle.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace graspd {
@@ -14,11 +13,13 @@ Eigen::Quaternionf quaternion(const Eigen::Matrix3f& rotation) {
   return q;
 }
 
-Eigen::Vector3f roll_pitch_yaw(const Eigen::Matrix3f& rotation) {
-  const float pitch = std::asin(std::clamp(-rotation(2, 0), -1.0f, 1.0f));
-  // Looking straight along z only the sum of roll and yaw is defined; roll takes none of it.
-  if (std::abs(rotation(2, 0)) > 1 - 1e-6f) return {0, pitch, std::atan2(-rotation(0, 1), rotation(1, 1))};
-  return {std::atan2(rotation(2, 1), rotation(2, 2)), pitch, std::atan2(rotation(1, 0), rotation(0, 0))};
+Eigen::Vector3f roll_pitch_yaw(const Eigen::Matrix3f& r) {
+  // Roll from what is left after yaw and pitch: near the gimbal lock, where yaw is ill-defined, the two still
+  // fit.
+  const float yaw = std::atan2(r(1, 0), r(0, 0));
+  const float pitch = std::atan2(-r(2, 0), std::hypot(r(0, 0), r(1, 0)));
+  const float s = std::sin(yaw), c = std::cos(yaw);
+  return {std::atan2(s * r(0, 2) - c * r(1, 2), c * r(1, 1) - s * r(0, 1)), pitch, yaw};
 }
 
 Handle transformed(const Handle& handle, const Eigen::Isometry3f& T_target_source) {

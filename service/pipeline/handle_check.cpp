@@ -129,7 +129,7 @@ void Check::collect_between() {
     f.push_back(kf);
     z.push_back(kz);
   }
-  const std::size_t skip = std::min(f.size() / 4, std::max<std::size_t>(1, f.size() / 100));
+  const std::size_t skip = std::min(f.size() / 4, std::max<std::size_t>(1, f.size() / 200));
   std::sort(f.begin(), f.end());
   std::sort(z.begin(), z.end());
   end_[0] = f[skip];

@@ -31,12 +31,13 @@ std::vector<Handle> rank_handles(std::vector<RankedHandle> handles, const Handle
   });
   std::vector<Handle> kept;
   std::map<int, int> count;
-  for (const auto& [handle, object] : handles) {
+  for (const RankedHandle& ranked : handles) {
+    const Handle& handle = ranked.handle;
     if (static_cast<int>(kept.size()) == config.max_handles) break;
-    if (handle.score < config.min_score || count[object] == config.max_per_object) continue;
+    if (handle.score < config.min_score || count[ranked.object] == config.max_per_object) continue;
     const auto near = [&](const Handle& other) { return same_place(handle, other, config); };
     if (std::any_of(kept.begin(), kept.end(), near)) continue;
-    ++count[object];
+    ++count[ranked.object];
     kept.push_back(handle);
   }
   return kept;

@@ -17,6 +17,8 @@ using Lanes = std::array<float, kLanes>;
 
 struct Covariances {
   Lanes xx{}, xy{}, xz{}, yy{}, yz{}, zz{};
+  Lanes minors{};  // sum of the principal minors: the product of the two larger eigenvalues where there is a
+                   // plane
 };
 
 /// Covariance of N(s), divided by its trace; all zero when there is no extent.
@@ -55,7 +57,7 @@ void add_covariance(const PointCloud& cloud, std::span<const std::uint32_t> neig
 
 /// Smallest eigenvalues of symmetric matrices of trace 1, by Newton's method on the characteristic polynomial
 /// from below its smallest root, where it converges monotonically.
-Lanes smallest_eigenvalues(const Covariances& c) {
+Lanes smallest_eigenvalues(Covariances& c) {
   Lanes root{};
   for (std::size_t k = 0; k < kLanes; ++k) {
     const float minors = c.xx[k] * c.yy[k] - c.xy[k] * c.xy[k] + c.xx[k] * c.zz[k] - c.xz[k] * c.xz[k] +
@@ -71,6 +73,7 @@ Lanes smallest_eigenvalues(const Covariances& c) {
       t = std::clamp(t, 0.0f, 1.0f / 3.0f);
     }
     root[k] = t;
+    c.minors[k] = minors;
   }
   return root;
 }
@@ -90,7 +93,8 @@ void eigenvectors(const Covariances& c, const Lanes& t, Lanes& x, Lanes& y, Lane
     const float n01 = second ? n1 : n0;
     const bool third = n2 > n01;
     const float n = third ? n2 : n01;
-    const float scale = n > 1e-16f ? 1.0f / std::sqrt(n) : 0.0f;
+    // Less on a line, where every axis across it would do: what is left is rounding alone.
+    const float scale = n > 1e-16f && c.minors[k] > 1e-5f ? 1.0f / std::sqrt(n) : 0.0f;
     x[k] = scale * (third ? x2 : second ? x1 : x0);
     y[k] = scale * (third ? y2 : second ? y1 : y0);
     z[k] = scale * (third ? z2 : second ? z1 : z0);
@@ -106,7 +110,8 @@ void estimate_lanes(const PointCloud& cloud, const Neighborhoods& neighborhoods,
   for (std::size_t k = 0; k < num; ++k)
     add_covariance(cloud, neighborhoods.of(first + k), cloud.point(first + k), c, k);
   Lanes x{}, y{}, z{};
-  eigenvectors(c, smallest_eigenvalues(c), x, y, z);
+  const Lanes smallest = smallest_eigenvalues(c);
+  eigenvectors(c, smallest, x, y, z);
   for (std::size_t k = 0; k < num; ++k) {
     const Eigen::Vector3f to_sensor = cloud.viewpoint - cloud.point(first + k);
     const float sign = x[k] * to_sensor.x() + y[k] * to_sensor.y() + z[k] * to_sensor.z() < 0 ? -1.0f : 1.0f;

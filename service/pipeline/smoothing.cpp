@@ -7,7 +7,7 @@
 namespace graspd {
 
 PointCloud smooth(const PointCloud& cloud, const Normals& normals, const Neighborhoods& neighborhoods) {
-  constexpr float kMinCosine = 0.7071f;
+  constexpr float kMinCosine = 0.9063f;  // 25 degrees
   PointCloud moved = cloud;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cloud.size(), 1024), [&](const auto& range) {
     for (std::size_t s = range.begin(); s != range.end(); ++s) {

@@ -18,7 +18,7 @@ struct SmoothingConfig {
   }
 };
 
-/// One iteration. Neighbours whose normal differs by more than 45 degrees do not count, so that edges stay
+/// One iteration. Neighbours whose normal differs by more than 25 degrees do not count, so that edges stay
 /// sharp; points without a normal stay where they are.
 [[nodiscard]] PointCloud smooth(const PointCloud& cloud, const Normals& normals,
                                 const Neighborhoods& neighborhoods);

@@ -14,6 +14,7 @@
 #include "service/pipeline/downsample.hpp"
 #include "service/pipeline/neighborhoods.hpp"
 #include "service/pipeline/normals.hpp"
+#include "service/pipeline/union_find.hpp"
 
 namespace graspd {
 namespace {
@@ -103,6 +104,50 @@ std::size_t refine(const PointCloud& cloud, const Normals& normals, float thickn
   return n;
 }
 
+/// Largest number of points of a plane that hang together.
+std::size_t connected_points(const PointCloud& cloud, const Normals& normals,
+                             const Neighborhoods& neighborhoods, const Plane& plane, float thickness_m,
+                             float min_cosine) {
+  const auto belongs = [&](std::uint32_t i) {
+    return std::abs(plane.height(cloud.point(i))) < thickness_m &&
+           plane.normal.dot(normals.at(i)) > min_cosine;
+  };
+  UnionFind sets(cloud.size());
+  std::vector<std::size_t> count(cloud.size());
+  for (std::uint32_t i = 0; i < cloud.size(); ++i) {
+    if (!belongs(i)) continue;
+    for (const std::uint32_t j : neighborhoods.of(i))
+      if (j > i && belongs(j)) sets.unite(i, j);
+  }
+  std::size_t most = 0;
+  for (std::uint32_t i = 0; i < cloud.size(); ++i)
+    if (belongs(i)) most = std::max(most, ++count[sets.find(i)]);
+  return most;
+}
+
+/// The highest plane parallel to the one given, and well above it, that has the points; else the one given.
+Plane highest_parallel(const PointCloud& cloud, const Normals& normals, const Neighborhoods& neighborhoods,
+                       const Plane& plane, float thickness_m, float min_cosine, std::size_t min_points) {
+  constexpr float kWellAbove = 0.1f;
+  std::vector<std::size_t> levels;  // points with the plane's normal, by height above it
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const float height = plane.height(cloud.point(i));
+    if (height < kWellAbove || plane.normal.dot(normals.at(i)) <= min_cosine) continue;
+    const auto level = static_cast<std::size_t>(height / thickness_m);
+    if (level >= levels.size()) levels.resize(level + 1);
+    ++levels[level];
+  }
+  for (std::size_t level = levels.size(); level-- > 0;) {
+    // A surface between two levels has half of its points in each.
+    const std::size_t here = levels[level] + (level > 0 ? levels[level - 1] : 0);
+    if (levels[level] == 0 || here < min_points) continue;
+    const Plane upper{plane.normal, plane.offset_m - thickness_m * static_cast<float>(level)};
+    if (connected_points(cloud, normals, neighborhoods, upper, 1.5f * thickness_m, min_cosine) >= min_points)
+      return upper;
+  }
+  return plane;
+}
+
 /// Root mean square distance from the plane of the points near it.
 float scatter(const PointCloud& cloud, const Plane& plane, float thickness_m) {
   const std::size_t step = std::max<std::size_t>(1, cloud.size() / kScatterSize);
@@ -127,12 +172,16 @@ float support_thickness(const Eigen::Vector3f& p, const Eigen::Vector3f& viewpoi
 std::optional<Support> find_support(const PointCloud& cloud, const SupportConfig& config) {
   if (!config.enabled || cloud.empty()) return std::nullopt;
   const PointCloud coarse = downsample(cloud, {config.leaf_size_m}).cloud;
-  const Normals normals = estimate_normals(coarse, find_neighborhoods(coarse, {3 * config.leaf_size_m}));
+  const Neighborhoods neighborhoods = find_neighborhoods(coarse, {3 * config.leaf_size_m});
+  const Normals normals = estimate_normals(coarse, neighborhoods);
   const float min_cosine = std::cos(config.max_normal_angle_deg * std::numbers::pi_v<float> / 180);
   const auto hypothesis = best_hypothesis(thin_out(coarse, normals), config, min_cosine, cloud.viewpoint);
   if (!hypothesis) return std::nullopt;
   Support support;
-  support.plane = *hypothesis;
+  const auto upper_points =
+      static_cast<std::size_t>(config.min_upper_area_m2 / (config.leaf_size_m * config.leaf_size_m));
+  support.plane = highest_parallel(coarse, normals, neighborhoods, *hypothesis, config.thickness_m,
+                                   min_cosine, upper_points);
   std::size_t inliers = 0;
   for (int round = 0; round < 3; ++round)
     inliers = refine(coarse, normals, config.thickness_m, min_cosine, support.plane);

@@ -22,6 +22,7 @@ struct Plane {
 struct SupportConfig {
   bool enabled = true;
   float min_area_m2 = 0.03f;
+  float min_upper_area_m2 = 0.12f;
   float thickness_m = 0.008f;
   float thickness_per_m = 0.006f;
   float max_normal_angle_deg = 25.0f;
@@ -32,6 +33,9 @@ struct SupportConfig {
   static void visit(Self& self, Visitor&& v) {
     v("enabled", self.enabled, Range{}, "look for the plane that objects stand on");
     v("min_area_m2", self.min_area_m2, Range{0.001, 100}, "smallest visible area of a support [m2]");
+    v("min_upper_area_m2", self.min_upper_area_m2, Range{0.001, 100},
+      "a parallel plane above the largest one with this connected area is the support: a table over the "
+      "floor [m2]");
     v("thickness_m", self.thickness_m, Range{0.001, 0.1}, "points this close to the plane belong to it [m]");
     v("thickness_per_m", self.thickness_per_m, Range{0, 0.1},
       "more for each metre beyond 0.8 m from the sensor [m]");

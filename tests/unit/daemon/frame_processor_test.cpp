@@ -3,6 +3,7 @@
 #include "service/daemon/frame_processor.hpp"
 
 #include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
 
 #include <atomic>
 #include <cstring>
@@ -26,6 +27,10 @@ class FrameProcessorTest : public testing::Test {
     return FrameProcessor(source_, "CLOUD_7", limits_, clock_).process(message(bytes), running_);
   }
 
+#ifdef __SANITIZE_THREAD__
+  // As in daemon_test.cpp.
+  const tbb::global_control one_thread_{tbb::global_control::max_allowed_parallelism, 1};
+#endif
   SourceConfig source_;
   DecodeLimits limits_;
   ManualClock clock_;
