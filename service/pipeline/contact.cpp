@@ -22,7 +22,8 @@ constexpr float kHideMargin = 0.008f;  // nearer by this much hides [m]
 constexpr float kCameraSide = 0.40f;   // cosine: beyond it the sensor would have seen the wall
 constexpr float kMaxWedge = 0.65f;     // mean tilt of a face that ends at free space [rad]
 constexpr float kMaxFlatTilt = 0.40f;  // tilt of a flat face that is carried on [rad]
-constexpr float kMaxRadius = 0.06f;    // larger circles count as flat [m]
+constexpr float kMaxUnseenBulge = 0.012f;  // beyond an edge beside seen space [m]
+constexpr float kMaxRadius = 0.06f;        // larger circles count as flat [m]
 
 /// A point of the face near the end: distance inwards from the end, and depth.
 struct FacePoint {
@@ -103,12 +104,17 @@ Contact edge_contact(const ContactInput& in, float side, float end_m, float hidd
   const float middle = std::atan(-c[1] - c[2] * span);
   if (ends_by_occlusion(in, side, end_m, c[0])) return {ContactKind::kNone, end_m};
   if (at_end < -kMaxRise) return {ContactKind::kNone, end_m};
-  const bool no_wedge = std::abs(0.5f * (at_end + inner)) <= kMaxWedge;
-  if (hidden_share <= kSeenFree) return {no_wedge ? ContactKind::kFreeEdge : ContactKind::kNone, end_m};
-  if (hidden_share < kHidden && !no_wedge) return {ContactKind::kNone, end_m};
   const float turn = at_end - inner;
   const float radius = turn > 0.05f ? span / (std::cos(middle) * turn) : 1e3f;
-  if (radius < kMaxRadius) return {ContactKind::kCurvedEdge, end_m + side * radius * (1 - std::sin(at_end))};
+  const bool curved = radius < kMaxRadius;
+  const float round_end = curved ? end_m + side * radius * (1 - std::sin(at_end)) : end_m;
+  const bool no_wedge = std::abs(0.5f * (at_end + inner)) <= kMaxWedge;
+  // Even where the place beside it is seen, the widest place of a round object may lie below what is;
+  // anywhere between the edge and the full circle, so that their middle is the least wrong.
+  const float free_end = end_m + 0.5f * side * std::min(kMaxUnseenBulge, side * (round_end - end_m));
+  if (hidden_share <= kSeenFree) return {no_wedge ? ContactKind::kFreeEdge : ContactKind::kNone, free_end};
+  if (hidden_share < kHidden && !no_wedge) return {ContactKind::kNone, end_m};
+  if (curved) return {ContactKind::kCurvedEdge, round_end};
   const float lean = std::max(0.0f, (in.depth_m - c[0]) * std::tan(-middle));
   return {std::abs(middle) <= kMaxFlatTilt ? ContactKind::kFlatEdge : ContactKind::kNone,
           end_m + side * lean};

@@ -18,7 +18,8 @@ PointCloud smooth(const PointCloud& cloud, const Normals& normals, const Neighbo
         sum += n.dot(cloud.point(i) - p);
         count += 1;
       }
-      if (count == 0) continue;
+      // Near an edge many normals differ, and the mean of both faces lies inside the object.
+      if (count < 0.8f * static_cast<float>(neighborhoods.of(s).size()) || count == 0) continue;
       const Eigen::Vector3f q = p + n * (sum / count);
       moved.x[s] = q.x();
       moved.y[s] = q.y();

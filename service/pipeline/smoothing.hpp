@@ -18,8 +18,8 @@ struct SmoothingConfig {
   }
 };
 
-/// One iteration. Neighbours whose normal differs by more than 25 degrees do not count, so that edges stay
-/// sharp; points without a normal stay where they are.
+/// One iteration. Neighbours whose normal differs by more than 25 degrees do not count; points with more than
+/// a fifth of those, near edges, stay where they are, and so do points without a normal.
 [[nodiscard]] PointCloud smooth(const PointCloud& cloud, const Normals& normals,
                                 const Neighborhoods& neighborhoods);
 
