@@ -67,8 +67,9 @@ std::variant<Pinhole, std::string> estimate_pinhole(const PointCloud& cloud) {
     if (!p.allFinite() || p.isZero(0)) continue;
     if (p.z() <= 0) return "not in an optical frame: points lie behind the camera";
     const auto width = static_cast<std::size_t>(cloud.width);
-    along_u.add(p.x() / p.z(), static_cast<double>(i % width));
-    along_v.add(p.y() / p.z(), static_cast<double>(i / width));
+    const std::size_t column = i % width, row = i / width;
+    along_u.add(p.x() / p.z(), static_cast<double>(column));
+    along_v.add(p.y() / p.z(), static_cast<double>(row));
     ++used;
   }
   if (used < kMinPoints)

@@ -41,13 +41,13 @@ std::filesystem::path find_config_file(const std::string& name_or_path, const st
                                        const std::filesystem::path& folder, const ConfigPlace& place) {
   std::error_code error;
   if (is_path(name_or_path)) {
-    const auto file = folder / name_or_path;
+    std::filesystem::path file = folder / name_or_path;
     if (!std::filesystem::exists(file, error)) place.fail("no such file", file.string(), "");
     return file;
   }
   const std::vector<std::filesystem::path> folders{folder / kind, installed_config_folder() / kind};
   for (const auto& candidate : folders) {
-    const auto file = candidate / (name_or_path + ".yaml");
+    std::filesystem::path file = candidate / (name_or_path + ".yaml");
     if (std::filesystem::exists(file, error)) return file;
   }
   const std::string names = known_names(folders);

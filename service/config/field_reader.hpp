@@ -83,7 +83,7 @@ void read_value(const YAML::Node& node, const ConfigPlace& place, const Range& r
 /// The visitor. Keys that are missing keep what the struct holds.
 class FieldReader {
  public:
-  FieldReader(YAML::Node map, ConfigPlace place) : map_(std::move(map)), place_(std::move(place)) {}
+  FieldReader(const YAML::Node& map, ConfigPlace place) : map_(map), place_(std::move(place)) {}
 
   /// A value.
   template <class T>

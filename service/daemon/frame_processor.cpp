@@ -88,21 +88,21 @@ Answer FrameProcessor::drop(const FrameMessage& message, const std::string& why)
   HandleListHeader header = list_header(message.header);
   header.status = handle_list_t::OVERLOADED;
   header.status_text = why;
-  return without_detection(Outcome::kDropped, std::move(header), message.arrival);
+  return without_detection(Outcome::kDropped, header, message.arrival);
 }
 
 Answer FrameProcessor::fail(const FrameMessage& message, const std::string& why) const {
   HandleListHeader header = list_header(message.header);
   header.status = handle_list_t::FAILED;
   header.status_text = why;
-  return without_detection(Outcome::kFailed, std::move(header), message.arrival);
+  return without_detection(Outcome::kFailed, header, message.arrival);
 }
 
 Answer FrameProcessor::refuse(const Refusal& refusal, Clock::TimePoint arrival) const {
   HandleListHeader header = list_header({refusal.utime, refusal.seq, refusal.frame_name});
   header.status = handle_list_t::REFUSED;
   header.status_text = std::string(name(refusal.reason)) + ": " + refusal.text;
-  Answer answer = without_detection(Outcome::kRefused, std::move(header), arrival);
+  Answer answer = without_detection(Outcome::kRefused, header, arrival);
   answer.refusal = refusal.reason;
   return answer;
 }
@@ -116,7 +116,7 @@ HandleListHeader FrameProcessor::list_header(const FrameHeader& header) const {
   return list;
 }
 
-Answer FrameProcessor::without_detection(Outcome outcome, HandleListHeader header,
+Answer FrameProcessor::without_detection(Outcome outcome, const HandleListHeader& header,
                                          Clock::TimePoint arrival) const {
   return {outcome, std::nullopt, arrival,
           make_handle_list(header, source_.gripper.gripper, Detection{}, Eigen::Isometry3f::Identity())};

@@ -43,7 +43,7 @@ class FrameProcessor {
 
   Answer detect(const FrameMessage& message, const std::atomic<bool>& cancelled) const;
   HandleListHeader list_header(const FrameHeader& header) const;
-  Answer without_detection(Outcome outcome, HandleListHeader header, Clock::TimePoint arrival) const;
+  Answer without_detection(Outcome outcome, const HandleListHeader& header, Clock::TimePoint arrival) const;
 
   const SourceConfig source_;
   const std::string channel_;

@@ -29,8 +29,9 @@ struct BoxQuery::Box {
 
   /// Coordinates of n points in the box's frame, and 1 for each inside. Plain scalars and arrays, so that the
   /// compiler can use vectors.
-  void transform(const float* x, const float* y, const float* z, std::size_t n, float* a, float* f,
-                 float* depth, int* inside) const {
+  void transform(const float* x, const float* y, const float* z, std::size_t n, Block& out) const {
+    float *a = out.a, *f = out.f, *depth = out.z;
+    int* inside = out.inside;
     const float r00 = to_local(0, 0), r01 = to_local(0, 1), r02 = to_local(0, 2), t0 = shift[0];
     const float r10 = to_local(1, 0), r11 = to_local(1, 1), r12 = to_local(1, 2), t1 = shift[1];
     const float r20 = to_local(2, 0), r21 = to_local(2, 1), r22 = to_local(2, 2), t2 = shift[2];
@@ -114,8 +115,7 @@ void BoxQuery::find(const Eigen::Vector3f& origin, const Eigen::Matrix3f& rotati
     if (out.a.size() < n + (to - from)) out.resize(std::max(2 * out.a.size(), n + (to - from)));
     for (; from < to; from += Block::kSize) {
       const std::size_t size = std::min(Block::kSize, to - from);
-      box.transform(x_.data() + from, y_.data() + from, z_.data() + from, size, block.a, block.f, block.z,
-                    block.inside);
+      box.transform(x_.data() + from, y_.data() + from, z_.data() + from, size, block);
       for (std::size_t k = 0; k < size; ++k) {
         out.a[n] = block.a[k];
         out.f[n] = block.f[k];
@@ -137,8 +137,7 @@ bool BoxQuery::has_more(const Eigen::Vector3f& origin, const Eigen::Matrix3f& ro
   for_each_range(box, [&](std::size_t from, std::size_t to) {
     for (; from < to; from += Block::kSize) {
       const std::size_t size = std::min(Block::kSize, to - from);
-      box.transform(x_.data() + from, y_.data() + from, z_.data() + from, size, block.a, block.f, block.z,
-                    block.inside);
+      box.transform(x_.data() + from, y_.data() + from, z_.data() + from, size, block);
       for (std::size_t k = 0; k < size; ++k) n += block.inside[k];
     }
     return n <= limit;

@@ -12,8 +12,8 @@
 extern "C" const char*
 __tsan_default_suppressions() {  // NOLINT(bugprone-reserved-identifier): the sanitizer's name
   return "race:libtbb.so\n"
-         "race_top:libglib-2.0.so\n"
-         "race_top:liblcm.so\n"
+         "called_from_lib:libglib-2.0.so\n"
+         "called_from_lib:liblcm.so\n"
          "race_top:LcmBus::Subscription::dispatch\n"
          "race_top:graspd::ByteReader\n"
          "race_top:memchr\n";

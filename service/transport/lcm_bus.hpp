@@ -16,7 +16,7 @@
 
 #include "service/transport/lcm_url.hpp"
 
-struct _lcm_t;
+struct _lcm_t;  // NOLINT(bugprone-reserved-identifier): the name that liblcm gives it
 
 namespace graspd {
 
