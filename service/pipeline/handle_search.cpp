@@ -190,10 +190,10 @@ void HandleSearch::add_bands(std::size_t s, const Eigen::Vector3f& axis, std::ve
   };
   float reach = 0;
   for (const std::uint32_t i : segment.points) reach = std::max(reach, std::abs(along(i)));
-  const int half = static_cast<int>(reach + 0.5f);
+  const int half = static_cast<int>(std::lround(reach));
   std::vector<Band> bands(static_cast<std::size_t>(2 * half + 1));
   for (const std::uint32_t i : segment.points) {
-    const int k = std::clamp(static_cast<int>(std::floor(along(i) + 0.5f)) + half, 0, 2 * half);
+    const int k = std::clamp(static_cast<int>(std::lround(along(i))) + half, 0, 2 * half);
     bands[static_cast<std::size_t>(k)].sum += in_.cloud.point(i);
     ++bands[static_cast<std::size_t>(k)].n;
   }

@@ -104,36 +104,42 @@ std::size_t refine(const PointCloud& cloud, const Normals& normals, float thickn
   return n;
 }
 
+/// The coarser copy, and what makes a point of it one of a plane's.
+struct PlaneInput {
+  const PointCloud& cloud;
+  const Normals& normals;
+  const Neighborhoods& neighborhoods;
+  float thickness_m;
+  float min_cosine;
+};
+
 /// Largest number of points of a plane that hang together.
-std::size_t connected_points(const PointCloud& cloud, const Normals& normals,
-                             const Neighborhoods& neighborhoods, const Plane& plane, float thickness_m,
-                             float min_cosine) {
+std::size_t connected_points(const PlaneInput& in, const Plane& plane) {
   const auto belongs = [&](std::uint32_t i) {
-    return std::abs(plane.height(cloud.point(i))) < thickness_m &&
-           plane.normal.dot(normals.at(i)) > min_cosine;
+    return std::abs(plane.height(in.cloud.point(i))) < 1.5f * in.thickness_m &&
+           plane.normal.dot(in.normals.at(i)) > in.min_cosine;
   };
-  UnionFind sets(cloud.size());
-  std::vector<std::size_t> count(cloud.size());
-  for (std::uint32_t i = 0; i < cloud.size(); ++i) {
+  UnionFind sets(in.cloud.size());
+  std::vector<std::size_t> count(in.cloud.size());
+  for (std::uint32_t i = 0; i < in.cloud.size(); ++i) {
     if (!belongs(i)) continue;
-    for (const std::uint32_t j : neighborhoods.of(i))
+    for (const std::uint32_t j : in.neighborhoods.of(i))
       if (j > i && belongs(j)) sets.unite(i, j);
   }
   std::size_t most = 0;
-  for (std::uint32_t i = 0; i < cloud.size(); ++i)
+  for (std::uint32_t i = 0; i < in.cloud.size(); ++i)
     if (belongs(i)) most = std::max(most, ++count[sets.find(i)]);
   return most;
 }
 
 /// The highest plane parallel to the one given, and well above it, that has the points; else the one given.
-Plane highest_parallel(const PointCloud& cloud, const Normals& normals, const Neighborhoods& neighborhoods,
-                       const Plane& plane, float thickness_m, float min_cosine, std::size_t min_points) {
+Plane highest_parallel(const PlaneInput& in, const Plane& plane, std::size_t min_points) {
   constexpr float kWellAbove = 0.1f;
   std::vector<std::size_t> levels;  // points with the plane's normal, by height above it
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const float height = plane.height(cloud.point(i));
-    if (height < kWellAbove || plane.normal.dot(normals.at(i)) <= min_cosine) continue;
-    const auto level = static_cast<std::size_t>(height / thickness_m);
+  for (std::size_t i = 0; i < in.cloud.size(); ++i) {
+    const float height = plane.height(in.cloud.point(i));
+    if (height < kWellAbove || plane.normal.dot(in.normals.at(i)) <= in.min_cosine) continue;
+    const auto level = static_cast<std::size_t>(height / in.thickness_m);
     if (level >= levels.size()) levels.resize(level + 1);
     ++levels[level];
   }
@@ -141,9 +147,8 @@ Plane highest_parallel(const PointCloud& cloud, const Normals& normals, const Ne
     // A surface between two levels has half of its points in each.
     const std::size_t here = levels[level] + (level > 0 ? levels[level - 1] : 0);
     if (levels[level] == 0 || here < min_points) continue;
-    const Plane upper{plane.normal, plane.offset_m - thickness_m * static_cast<float>(level)};
-    if (connected_points(cloud, normals, neighborhoods, upper, 1.5f * thickness_m, min_cosine) >= min_points)
-      return upper;
+    Plane upper{plane.normal, plane.offset_m - in.thickness_m * static_cast<float>(level)};
+    if (connected_points(in, upper) >= min_points) return upper;
   }
   return plane;
 }
@@ -180,8 +185,8 @@ std::optional<Support> find_support(const PointCloud& cloud, const SupportConfig
   Support support;
   const auto upper_points =
       static_cast<std::size_t>(config.min_upper_area_m2 / (config.leaf_size_m * config.leaf_size_m));
-  support.plane = highest_parallel(coarse, normals, neighborhoods, *hypothesis, config.thickness_m,
-                                   min_cosine, upper_points);
+  const PlaneInput input{coarse, normals, neighborhoods, config.thickness_m, min_cosine};
+  support.plane = highest_parallel(input, *hypothesis, upper_points);
   std::size_t inliers = 0;
   for (int round = 0; round < 3; ++round)
     inliers = refine(coarse, normals, config.thickness_m, min_cosine, support.plane);
