@@ -64,6 +64,7 @@ LcmBus::Wait Daemon::step() {
 }
 
 bool Daemon::stop() {
+  stopped_ = true;
   queue_.close();
   const auto drop_all = [this] {
     cancelled_ = true;
@@ -84,6 +85,7 @@ bool Daemon::stop() {
 }
 
 void Daemon::on_packet(std::size_t source, const Packet& packet) {
+  if (stopped_) return;
   if (Stream* stream = stream_for(source, packet.channel)) take(*stream, packet);
 }
 

@@ -70,6 +70,7 @@ class Daemon {
   std::map<std::string, Stream*, std::less<>> stream_of_channel_;
   std::int64_t ignored_ = 0;
   Clock::TimePoint next_status_;
+  bool stopped_ = false;
   std::atomic<bool> cancelled_ = false;
   std::mutex in_work_mutex_;
   std::set<const Job*> in_work_;

@@ -182,6 +182,7 @@ TEST_F(DaemonTest, UnusableMessagesNeverReplaceAFrame) {
   run_until_answers(13);
   EXPECT_EQ(answers_[1].status, +handle_list_t::OK) << "the frame that waited";
   for (std::size_t i = 2; i < 13; ++i) EXPECT_EQ(answers_[i].status, +handle_list_t::REFUSED);
+  const std::lock_guard lock(lines_mutex_);
   EXPECT_EQ(lines_.size(), static_cast<std::size_t>(Log::kLinesAPeriod));
 }
 
