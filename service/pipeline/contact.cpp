@@ -22,8 +22,8 @@ constexpr float kHideMargin = 0.008f;  // nearer by this much hides [m]
 constexpr float kCameraSide = 0.40f;   // cosine: beyond it the sensor would have seen the wall
 constexpr float kMaxWedge = 0.65f;     // mean tilt of a face that ends at free space [rad]
 constexpr float kMaxFlatTilt = 0.40f;  // tilt of a flat face that is carried on [rad]
+constexpr float kMaxDoubt = 0.006f;    // between two guesses at where a round face ends [m]
 constexpr float kMaxUnseenBulge = 0.012f;  // beyond an edge beside seen space [m]
-constexpr float kMaxRadius = 0.06f;        // larger circles count as flat [m]
 
 /// A point of the face near the end: distance inwards from the end, and depth.
 struct FacePoint {
@@ -92,6 +92,34 @@ bool ends_by_occlusion(const ContactInput& in, float side, float end_m, float en
   return hidden >= 2;
 }
 
+/// How far out the circle that turns as the face does between its inner tilt and the one at its end goes.
+std::optional<float> turning_reach(float side, float end_m, float at_end, float inner, float middle,
+                                   float span) {
+  const float turn = at_end - inner;
+  if (turn <= 0.05f) return std::nullopt;
+  const float radius = span / (std::cos(middle) * turn);
+  if (radius >= kMaxRadius) return std::nullopt;
+  return end_m + side * radius * (1 - std::sin(at_end));
+}
+
+/// How far out a curved face goes on: the circle through the whole profile, where there is one, says it best;
+/// what the face itself suggests beyond that, up to a bound, is kept clear of too. Nothing where it is flat.
+std::optional<float> round_reach(const ContactInput& in, float side, float end_m,
+                                 const std::optional<float>& turning) {
+  if (!in.circle) return turning;
+  const float below = std::max(0.0f, in.circle->center.y() - in.depth_m), r = in.circle->radius;
+  const float half = std::sqrt(std::max(0.0f, r * r - below * below));
+  const float circle = std::max(side * end_m, side * in.circle->center.x() + half);
+  const float more = turning ? std::clamp(side * *turning - circle, 0.0f, kMaxDoubt) : 0.0f;
+  return side * (circle + more);
+}
+
+/// Whether the jaws meet a round object so far above its widest place that they slide off.
+bool slips_off(const ContactInput& in) {
+  return in.circle &&
+         in.circle->center.y() - in.depth_m > in.circle->radius * std::sin(in.max_wall_angle_rad);
+}
+
 /// A face whose wall is out of sight: which way it goes on decides.
 Contact edge_contact(const ContactInput& in, float side, float end_m, float hidden_share,
                      const std::vector<FacePoint>& face) {
@@ -104,17 +132,17 @@ Contact edge_contact(const ContactInput& in, float side, float end_m, float hidd
   const float middle = std::atan(-c[1] - c[2] * span);
   if (ends_by_occlusion(in, side, end_m, c[0])) return {ContactKind::kNone, end_m};
   if (at_end < -kMaxRise) return {ContactKind::kNone, end_m};
-  const float turn = at_end - inner;
-  const float radius = turn > 0.05f ? span / (std::cos(middle) * turn) : 1e3f;
-  const bool curved = radius < kMaxRadius;
-  const float round_end = curved ? end_m + side * radius * (1 - std::sin(at_end)) : end_m;
+  const std::optional<float> round_end =
+      round_reach(in, side, end_m, turning_reach(side, end_m, at_end, inner, middle, span));
   const bool no_wedge = std::abs(0.5f * (at_end + inner)) <= kMaxWedge;
   // Even where the place beside it is seen, the widest place of a round object may lie below what is;
-  // anywhere between the edge and the full circle, so that their middle is the least wrong.
-  const float free_end = end_m + 0.5f * side * std::min(kMaxUnseenBulge, side * (round_end - end_m));
+  // anywhere between the edge and what the face suggests, so that their middle is the least wrong; where the
+  // whole profile is a circle, there.
+  const float bulge = round_end ? std::min(kMaxUnseenBulge, side * (*round_end - end_m)) : 0;
+  const float free_end = end_m + side * (in.circle ? 1.0f : 0.5f) * bulge;
   if (hidden_share <= kSeenFree) return {no_wedge ? ContactKind::kFreeEdge : ContactKind::kNone, free_end};
   if (hidden_share < kHidden && !no_wedge) return {ContactKind::kNone, end_m};
-  if (curved) return {ContactKind::kCurvedEdge, round_end};
+  if (round_end) return {slips_off(in) ? ContactKind::kNone : ContactKind::kCurvedEdge, *round_end};
   const float lean = std::max(0.0f, (in.depth_m - c[0]) * std::tan(-middle));
   return {std::abs(middle) <= kMaxFlatTilt ? ContactKind::kFlatEdge : ContactKind::kNone,
           end_m + side * lean};

@@ -4,7 +4,9 @@
 // sight, or nothing that can be relied on.
 #pragma once
 #include <cstdint>
+#include <optional>
 
+#include "service/pipeline/circle_fit.hpp"
 #include "service/pipeline/gripper.hpp"
 #include "service/pipeline/scene_view.hpp"
 
@@ -31,7 +33,10 @@ struct ContactInput {
   float min_facing_cosine;
   float finger_width_m;
   float finger_thickness_m;
-  float area_per_point_m2;  ///< of the surface that one of the points stands for
+  float area_per_point_m2;   ///< of the surface that one of the points stands for
+  float max_wall_angle_rad;  ///< between the jaw and a wall that leans outwards towards the fingertips
+  std::optional<Circle>
+      circle;  ///< through the profile (closing axis, depth) of those points, where they are round
 };
 
 struct Contact {
@@ -39,6 +44,9 @@ struct Contact {
   float reach_m =
       0;  ///< how far out, along the closing axis, the object goes: seen, or carried on into hidden space
 };
+
+/// Of circles that a profile may be part of; larger ones count as flat [m].
+inline constexpr float kMaxRadius = 0.06f;
 
 /// side: -1 or +1 along the closing axis; end_m: where the object's seen points end there; hidden_share: of
 /// the finger's volume beside it.

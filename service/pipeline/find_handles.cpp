@@ -110,50 +110,112 @@ int enough_before(SearchRound round) {
   return 0;
 }
 
+/// The cloud in both resolutions, with what finding points in boxes and behind others needs.
+struct CheckedScene {
+  const PointCloud& cloud;
+  const Surfaces& surfaces;
+  float voxel_area_m2;
+  DepthMap depth_map;
+  BoxQuery voxel_query, point_query;
+
+  CheckedScene(const PointCloud& c, const Surfaces& s, const DetectConfig& config)
+      : cloud(c),
+        surfaces(s),
+        voxel_area_m2(config.downsample.leaf_size_m * config.downsample.leaf_size_m),
+        depth_map(c),
+        voxel_query(s.cloud, kVoxelCell),
+        point_query(c, kPointCell) {}
+};
+
+/// Searches the objects of one guess at what belongs together. ids: object -> what the ranking knows it as.
+class GuessSearch {
+ public:
+  GuessSearch(const CheckedScene& scene, const Objects& objects, const Gripper& gripper,
+              const DetectConfig& config)
+      : scene_(scene),
+        objects_(objects),
+        gripper_(gripper),
+        config_(config),
+        object_of_point_(spread_to_points(objects.of_point, scene.surfaces.voxel_of_point)),
+        outlines_(scene.surfaces.cloud, objects.of_point, objects.num_objects),
+        input_{scene.surfaces.cloud, scene.surfaces.normals, scene.surfaces.segments, objects,
+               scene.surfaces.support},
+        voxels_{scene.surfaces.cloud,   scene.voxel_query, objects.of_point,
+                scene.surfaces.normals, nullptr,           scene.surfaces.support,
+                scene.depth_map,        object_of_point_,  scene.voxel_area_m2,
+                kVoxelTolerance},
+        points_{scene.cloud,
+                scene.point_query,
+                object_of_point_,
+                scene.surfaces.normals,
+                &scene.surfaces.voxel_of_point,
+                scene.surfaces.support,
+                scene.depth_map,
+                object_of_point_,
+                scene.voxel_area_m2,
+                kPointTolerance} {}
+
+  /// wanted: 1 for each object to search. Adds to out; ranked objects are numbered from first_id.
+  void run(const std::vector<std::uint8_t>& wanted, int first_id, CheckedCandidates& out) const {
+    const HandleSearch search(input_, gripper_, config_.search, wanted);
+    std::vector<int> handles_of_object(wanted.size());
+    for (const SearchRound round : kSearchRounds) {
+      std::vector<std::uint8_t> open = wanted;
+      for (std::size_t k = 0; k < open.size(); ++k)
+        if (handles_of_object[k] >= enough_before(round)) open[k] = 0;
+      const std::vector<Candidate> left =
+          prefilter(voxels_, gripper_, config_.check, search.candidates(round, open), outlines_, out);
+      const Results fine = check_all(points_, gripper_, config_.check, left, nullptr);
+      for (std::size_t k = 0; k < left.size(); ++k) {
+        count(left[k], fine[k].failure, out);
+        if (fine[k].failure != Failure::kNone) continue;
+        const auto object = static_cast<std::size_t>(left[k].object);
+        out.handles.push_back({scored(fine[k], objects_.center[object]), first_id + left[k].object});
+        ++handles_of_object[object];
+      }
+    }
+  }
+
+ private:
+  const CheckedScene& scene_;
+  const Objects& objects_;
+  const Gripper& gripper_;
+  const DetectConfig& config_;
+  std::vector<std::int32_t> object_of_point_;
+  ObjectOutlines outlines_;
+  SearchInput input_;
+  SceneView voxels_, points_;
+};
+
+/// 1 for each whole of several objects of which one has no handle.
+std::vector<std::uint8_t> wholes_to_try(const Surfaces& surfaces, const CheckedCandidates& found) {
+  const std::vector<std::int32_t>&object = surfaces.objects.of_segment, &whole = surfaces.wholes.of_segment;
+  std::vector<std::uint8_t> has_handle(static_cast<std::size_t>(surfaces.objects.num_objects));
+  for (const RankedHandle& ranked : found.handles) has_handle[static_cast<std::size_t>(ranked.object)] = 1;
+  std::vector<std::int32_t> first(static_cast<std::size_t>(surfaces.wholes.num_objects), -1);
+  std::vector<std::uint8_t> several(first.size()), lacking(first.size());
+  for (std::size_t s = 0; s < object.size(); ++s) {
+    const auto w = static_cast<std::size_t>(whole[s]);
+    if (first[w] < 0) first[w] = object[s];
+    if (object[s] != first[w]) several[w] = 1;
+    if (!has_handle[static_cast<std::size_t>(object[s])]) lacking[w] = 1;
+  }
+  for (std::size_t w = 0; w < several.size(); ++w) several[w] &= lacking[w];
+  return several;
+}
+
 }  // namespace
 
 CheckedCandidates find_handles(const PointCloud& cloud, const Surfaces& surfaces, const Gripper& gripper,
                                const DetectConfig& config) {
-  const DepthMap depth_map(cloud);
-  const std::vector<std::int32_t> object_of_point =
-      spread_to_points(surfaces.objects.of_point, surfaces.voxel_of_point);
-  const BoxQuery voxel_query(surfaces.cloud, kVoxelCell), point_query(cloud, kPointCell);
-  const ObjectOutlines outlines(surfaces.cloud, surfaces.objects.of_point, surfaces.objects.num_objects);
-  const float area = config.downsample.leaf_size_m * config.downsample.leaf_size_m;
-  const SceneView voxels{surfaces.cloud,   voxel_query,     surfaces.objects.of_point,
-                         surfaces.normals, nullptr,         surfaces.support,
-                         depth_map,        object_of_point, area,
-                         kVoxelTolerance};
-  const SceneView points{cloud,
-                         point_query,
-                         object_of_point,
-                         surfaces.normals,
-                         &surfaces.voxel_of_point,
-                         surfaces.support,
-                         depth_map,
-                         object_of_point,
-                         area,
-                         kPointTolerance};
-  const SearchInput input = surfaces.search_input();
-  const HandleSearch search(input, gripper, config.search);
+  const CheckedScene scene(cloud, surfaces, config);
   CheckedCandidates out;
   out.segments = start_reports(surfaces);
-  std::vector<int> handles_of_object(static_cast<std::size_t>(surfaces.objects.num_objects));
-  for (const SearchRound round : kSearchRounds) {
-    std::vector<std::uint8_t> wanted(handles_of_object.size());
-    for (std::size_t k = 0; k < wanted.size(); ++k)
-      wanted[k] = handles_of_object[k] < enough_before(round) ? 1 : 0;
-    const std::vector<Candidate> candidates = search.candidates(round, wanted);
-    const std::vector<Candidate> left = prefilter(voxels, gripper, config.check, candidates, outlines, out);
-    const Results fine = check_all(points, gripper, config.check, left, nullptr);
-    for (std::size_t k = 0; k < left.size(); ++k) {
-      count(left[k], fine[k].failure, out);
-      if (fine[k].failure != Failure::kNone) continue;
-      const auto object = static_cast<std::size_t>(left[k].object);
-      out.handles.push_back({scored(fine[k], surfaces.objects.center[object]), left[k].object});
-      ++handles_of_object[object];
-    }
-  }
+  const std::vector<std::uint8_t> all(static_cast<std::size_t>(surfaces.objects.num_objects), 1);
+  GuessSearch(scene, surfaces.objects, gripper, config).run(all, 0, out);
+  const std::vector<std::uint8_t> wholes = wholes_to_try(surfaces, out);
+  if (std::any_of(wholes.begin(), wholes.end(), [](std::uint8_t w) { return w != 0; }))
+    GuessSearch(scene, surfaces.wholes, gripper, config).run(wholes, surfaces.objects.num_objects, out);
   return out;
 }
 

@@ -231,6 +231,8 @@ Failure Check::check_contacts() {
   if (area_per_point() * static_cast<float>(between_.size()) < config_.min_contact_area_m2 ||
       gripper_.grasp_depth_m - top_ < config_.min_grip_depth_m)
     return Failure::kContact;
+  buffers_.profile.clear();
+  for (const std::uint32_t k : between_) buffers_.profile.emplace_back(local_.f[k], local_.z[k]);
   const ContactInput input{scene_,
                            local_,
                            between_,
@@ -242,7 +244,9 @@ Failure Check::check_contacts() {
                            std::cos(radians(config_.max_facing_angle_deg)),
                            gripper_.finger_width_m,
                            gripper_.finger_thickness_m,
-                           area_per_point()};
+                           area_per_point(),
+                           radians(config_.max_wall_angle_deg),
+                           fit_circle(buffers_.profile, kMaxRadius)};
   const Contact low = find_contact(input, -1, end_[0], finger_hidden_share(0, false));
   const Contact high = find_contact(input, 1, end_[1], finger_hidden_share(1, false));
   if (low.kind == ContactKind::kNone || high.kind == ContactKind::kNone) return Failure::kContact;
@@ -250,7 +254,7 @@ Failure Check::check_contacts() {
   set_width_from(low, high);
   margins_.width = (gripper_.aperture_m - handle_.width_m) / (kAmpleRoom * gripper_.aperture_m);
   margins_.grip_depth = (gripper_.grasp_depth_m - top_) / gripper_.grasp_depth_m;
-  return handle_.width_m > gripper_.aperture_m - 0.004f ? Failure::kTooWide : Failure::kNone;
+  return handle_.width_m > gripper_.aperture_m - 0.002f ? Failure::kTooWide : Failure::kNone;
 }
 
 Failure Check::check_unseen() {

@@ -96,6 +96,7 @@ struct CheckBuffers {
   std::vector<std::uint32_t> between;
   std::vector<int> own_profile, all_profile;
   std::vector<float> depths, widths;
+  std::vector<Eigen::Vector2f> profile;
 };
 
 /// Fits position and width to what is between the jaws, then checks. A pure function of its arguments

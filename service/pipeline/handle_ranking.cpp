@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 
@@ -23,24 +24,64 @@ bool same_place(const Handle& a, const Handle& b, const HandleRankingConfig& con
          angle_between(a, b) < config.distinct_angle_deg * std::numbers::pi_v<float> / 180;
 }
 
+/// How new a place is beside the others of its object, 1 far from all of them.
+float novelty(const Handle& handle, const std::vector<const Handle*>& others, float falloff_m) {
+  float nearest = std::numeric_limits<float>::infinity();
+  for (const Handle* other : others)
+    nearest = std::min(nearest, (handle.position - other->position).squaredNorm());
+  return 1 - std::exp(-nearest / (falloff_m * falloff_m));
+}
+
+/// Adds the best places of one object, each the best of those left with regard to score and distance from the
+/// ones before: a handle elsewhere on the object is worth more than the same again.
+void choose_places(const std::vector<RankedHandle>& handles, std::vector<std::size_t> left,
+                   const HandleRankingConfig& config, std::vector<const Handle*>& kept,
+                   std::vector<std::size_t>& chosen) {
+  std::vector<const Handle*> own;
+  while (!left.empty() && static_cast<int>(own.size()) < config.max_per_object) {
+    std::size_t best = left.front();
+    float best_worth = -1;
+    std::erase_if(left, [&](std::size_t i) {
+      return std::any_of(kept.begin(), kept.end(),
+                         [&](const Handle* other) { return same_place(handles[i].handle, *other, config); });
+    });
+    for (const std::size_t i : left) {
+      const float worth = handles[i].handle.score * novelty(handles[i].handle, own, config.spread_m);
+      if (worth <= best_worth) continue;
+      best_worth = worth;
+      best = i;
+    }
+    if (left.empty()) break;
+    std::erase(left, best);
+    own.push_back(&handles[best].handle);
+    kept.push_back(&handles[best].handle);
+    chosen.push_back(best);
+  }
+}
+
 }  // namespace
 
 std::vector<Handle> rank_handles(std::vector<RankedHandle> handles, const HandleRankingConfig& config) {
+  std::erase_if(handles, [&](const RankedHandle& r) { return r.handle.score < config.min_score; });
   std::stable_sort(handles.begin(), handles.end(), [](const RankedHandle& a, const RankedHandle& b) {
     return a.handle.score > b.handle.score;
   });
-  std::vector<Handle> kept;
-  std::map<int, int> count;
-  for (const RankedHandle& ranked : handles) {
-    const Handle& handle = ranked.handle;
-    if (static_cast<int>(kept.size()) == config.max_handles) break;
-    if (handle.score < config.min_score || count[ranked.object] == config.max_per_object) continue;
-    const auto near = [&](const Handle& other) { return same_place(handle, other, config); };
-    if (std::any_of(kept.begin(), kept.end(), near)) continue;
-    ++count[ranked.object];
-    kept.push_back(handle);
+  std::map<int, std::vector<std::size_t>> of_object;
+  std::vector<int> objects;  // the one with the best handle first
+  for (std::size_t i = 0; i < handles.size(); ++i) {
+    std::vector<std::size_t>& own = of_object[handles[i].object];
+    if (own.empty()) objects.push_back(handles[i].object);
+    own.push_back(i);
   }
-  return kept;
+  std::vector<const Handle*> kept;
+  std::vector<std::size_t> chosen;
+  for (const int object : objects) choose_places(handles, of_object[object], config, kept, chosen);
+  std::sort(chosen.begin(), chosen.end());
+  if (chosen.size() > static_cast<std::size_t>(config.max_handles))
+    chosen.resize(static_cast<std::size_t>(config.max_handles));
+  std::vector<Handle> ranked;
+  for (const std::size_t i : chosen) ranked.push_back(handles[i].handle);
+  return ranked;
 }
 
 }  // namespace graspd

@@ -15,6 +15,7 @@ struct HandleRankingConfig {
   float min_score = 0.0f;
   float distinct_distance_m = 0.02f;
   float distinct_angle_deg = 30.0f;
+  float spread_m = 0.05f;
 
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& v) {
@@ -24,6 +25,8 @@ struct HandleRankingConfig {
     v("distinct_distance_m", self.distinct_distance_m, Range{0, 1}, "handles this close are one place [m]");
     v("distinct_angle_deg", self.distinct_angle_deg, Range{0, 180},
       "when their orientations differ by less than this [degrees]");
+    v("spread_m", self.spread_m, Range{0.001, 1},
+      "of two further handles for an object the one this far from the others is worth more [m]");
   }
 };
 
@@ -33,7 +36,8 @@ struct RankedHandle {
   int object = -1;
 };
 
-/// Best first; ties keep the order of the input.
+/// One for each distinct place, max_per_object for each object: its best, and then those that score best with
+/// regard to how far they are from the ones before. Best score first; ties keep the order of the input.
 [[nodiscard]] std::vector<Handle> rank_handles(std::vector<RankedHandle> handles,
                                                const HandleRankingConfig& config);
 

@@ -91,7 +91,8 @@ std::vector<std::vector<std::uint32_t>> points_by_object(const Objects& objects)
 
 }  // namespace
 
-HandleSearch::HandleSearch(const SearchInput& input, const Gripper& gripper, const HandleSearchConfig& config)
+HandleSearch::HandleSearch(const SearchInput& input, const Gripper& gripper, const HandleSearchConfig& config,
+                           const std::vector<std::uint8_t>& wanted)
     : in_(input),
       gripper_(gripper),
       config_(config),
@@ -103,8 +104,9 @@ HandleSearch::HandleSearch(const SearchInput& input, const Gripper& gripper, con
     rectangle_axes_[s] = rectangle_axis(in_.cloud, in_.segments.list[s]);
   });
   const std::vector<std::vector<std::uint32_t>> points = points_by_object(in_.objects);
-  tbb::parallel_for(std::size_t{0}, points.size(),
-                    [&](std::size_t k) { seeds_[k] = spread_seeds(points[k]); });
+  tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t k) {
+    if (wanted[k]) seeds_[k] = spread_seeds(points[k]);
+  });
 }
 
 /// In each occupied cell of the spacing the point nearest to the mean of those in it.
@@ -229,6 +231,7 @@ std::vector<Candidate> HandleSearch::candidates(SearchRound round,
   std::vector<Candidate> candidates;
   if (config_.bands && round == SearchRound::kSurface)
     for (std::size_t s = 0; s < in_.segments.list.size(); ++s) {
+      if (!wanted[static_cast<std::size_t>(in_.objects.of_segment[s])]) continue;
       add_bands(s, in_.segments.list[s].major, candidates);
       add_bands(s, in_.segments.list[s].minor, candidates);
     }

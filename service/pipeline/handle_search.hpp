@@ -55,10 +55,11 @@ inline constexpr std::array kSearchRounds{SearchRound::kSurface, SearchRound::kS
 
 class HandleSearch {
  public:
-  /// The arguments must outlive the search.
-  HandleSearch(const SearchInput& input, const Gripper& gripper, const HandleSearchConfig& config);
+  /// input, gripper and config must outlive the search. wanted: 1 for each object that may be asked for.
+  HandleSearch(const SearchInput& input, const Gripper& gripper, const HandleSearchConfig& config,
+               const std::vector<std::uint8_t>& wanted);
 
-  /// wanted: 1 for each object that candidates are asked for.
+  /// wanted: 1 for each object that candidates are asked for, one of those that may be.
   [[nodiscard]] std::vector<Candidate> candidates(SearchRound round,
                                                   const std::vector<std::uint8_t>& wanted) const;
 

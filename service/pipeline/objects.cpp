@@ -17,13 +17,13 @@ struct Border {
 using Borders = std::map<std::pair<std::int32_t, std::int32_t>, Border>;
 
 Borders find_borders(const PointCloud& cloud, const Normals& normals, const Neighborhoods& neighborhoods,
-                     const std::vector<std::int32_t>& segment_of_point) {
+                     const std::vector<std::int32_t>& group_of_point) {
   Borders borders;
   for (std::uint32_t i = 0; i < cloud.size(); ++i) {
-    const std::int32_t a = segment_of_point[i];
+    const std::int32_t a = group_of_point[i];
     if (a < 0) continue;
     for (const std::uint32_t j : neighborhoods.of(i)) {
-      const std::int32_t b = segment_of_point[j];
+      const std::int32_t b = group_of_point[j];
       if (b <= a) continue;
       Border& border = borders[{a, b}];
       ++border.pairs;
@@ -32,6 +32,24 @@ Borders find_borders(const PointCloud& cloud, const Normals& normals, const Neig
     }
   }
   return borders;
+}
+
+/// Number of each group's set, in the order of their first groups.
+std::vector<std::int32_t> merge(std::size_t num_groups, const Borders& borders, int min_pairs,
+                                float min_convex_share, int& num_sets) {
+  UnionFind sets(num_groups);
+  for (const auto& [pair, border] : borders) {
+    if (border.pairs < min_pairs) continue;
+    if (static_cast<float>(border.convex) < min_convex_share * static_cast<float>(border.pairs)) continue;
+    sets.unite(static_cast<std::uint32_t>(pair.first), static_cast<std::uint32_t>(pair.second));
+  }
+  std::vector<std::int32_t> set_of_group(num_groups, -1);
+  num_sets = 0;
+  for (std::uint32_t g = 0; g < num_groups; ++g) {
+    const std::uint32_t root = sets.find(g);
+    set_of_group[g] = root == g ? num_sets++ : set_of_group[root];
+  }
+  return set_of_group;
 }
 
 /// Gives each point that has none the object of most of its neighbours.
@@ -74,19 +92,10 @@ std::vector<Eigen::Vector3f> centers(const PointCloud& cloud, const Objects& obj
 Objects group_segments(const PointCloud& cloud, const Normals& normals, const Neighborhoods& neighborhoods,
                        const Segments& segments, const std::vector<std::uint8_t>& is_support,
                        const ObjectsConfig& config) {
-  UnionFind sets(segments.list.size());
-  for (const auto& [pair, border] : find_borders(cloud, normals, neighborhoods, segments.of_point)) {
-    if (border.pairs < config.min_border_pairs) continue;
-    if (static_cast<float>(border.convex) < config.min_convex_share * static_cast<float>(border.pairs))
-      continue;
-    sets.unite(static_cast<std::uint32_t>(pair.first), static_cast<std::uint32_t>(pair.second));
-  }
+  const Borders borders = find_borders(cloud, normals, neighborhoods, segments.of_point);
   Objects objects;
-  objects.of_segment.assign(segments.list.size(), -1);
-  for (std::uint32_t s = 0; s < segments.list.size(); ++s) {
-    const std::uint32_t root = sets.find(s);
-    objects.of_segment[s] = root == s ? objects.num_objects++ : objects.of_segment[root];
-  }
+  objects.of_segment = merge(segments.list.size(), borders, config.min_border_pairs, config.min_convex_share,
+                             objects.num_objects);
   objects.of_point.assign(cloud.size(), -1);
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const std::int32_t s = segments.of_point[i];
@@ -96,6 +105,25 @@ Objects group_segments(const PointCloud& cloud, const Normals& normals, const Ne
     objects.of_point = filled(neighborhoods, is_support, objects.of_point);
   objects.center = centers(cloud, objects);
   return objects;
+}
+
+Objects merge_objects(const PointCloud& cloud, const Normals& normals, const Neighborhoods& neighborhoods,
+                      const Objects& objects, const ObjectsConfig& config) {
+  const Borders borders = find_borders(cloud, normals, neighborhoods, objects.of_point);
+  Objects wholes;
+  const std::vector<std::int32_t> whole =
+      merge(static_cast<std::size_t>(objects.num_objects), borders, config.min_border_pairs,
+            config.min_whole_convex_share, wholes.num_objects);
+  const auto mapped = [&whole](const std::vector<std::int32_t>& of) {
+    std::vector<std::int32_t> result = of;
+    for (std::int32_t& k : result)
+      if (k >= 0) k = whole[static_cast<std::size_t>(k)];
+    return result;
+  };
+  wholes.of_segment = mapped(objects.of_segment);
+  wholes.of_point = mapped(objects.of_point);
+  wholes.center = centers(cloud, wholes);
+  return wholes;
 }
 
 }  // namespace graspd

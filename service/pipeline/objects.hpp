@@ -14,6 +14,7 @@ namespace graspd {
 struct ObjectsConfig {
   float min_convex_share = 0.6f;
   int min_border_pairs = 8;
+  float min_whole_convex_share = 0.4f;
 
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& v) {
@@ -21,6 +22,8 @@ struct ObjectsConfig {
       "segments are one object when this share of their border is convex");
     v("min_border_pairs", self.min_border_pairs, Range{1, 100000},
       "and their border has this many pairs of neighbours");
+    v("min_whole_convex_share", self.min_whole_convex_share, Range{0, 1},
+      "objects without a handle are tried together with neighbours when this share of the border is convex");
   }
 };
 
@@ -38,5 +41,12 @@ struct Objects {
                                      const Neighborhoods& neighborhoods, const Segments& segments,
                                      const std::vector<std::uint8_t>& is_support,
                                      const ObjectsConfig& config);
+
+/// A coarser guess for where the first one fails: objects that meet at a border which does not speak against
+/// one object, such as the outside and the inside of a mug at its thin rim. The border counts all points of
+/// an object, also those in no segment.
+[[nodiscard]] Objects merge_objects(const PointCloud& cloud, const Normals& normals,
+                                    const Neighborhoods& neighborhoods, const Objects& objects,
+                                    const ObjectsConfig& config);
 
 }  // namespace graspd

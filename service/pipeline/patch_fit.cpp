@@ -136,11 +136,30 @@ Failure find_patch(const SceneView& scene, const Gripper& g, CheckBuffers& buffe
   fit.center_m = profile.at(low) + 0.5f * fit.width_m;
   fit.gap_m = {std::min(g.aperture_m, kBin * static_cast<float>(low - below - 1)),
                std::min(g.aperture_m, kBin * static_cast<float>(beyond - high - 1))};
-  if (fit.width_m <= g.aperture_m - 0.002f) return Failure::kNone;
+  if (fit.width_m <= g.aperture_m + 0.004f) return Failure::kNone;
   int other = 0;
   for (int b = low; b <= high; ++b)
     other += profile.all[static_cast<std::size_t>(b)] > profile.own[static_cast<std::size_t>(b)] ? 1 : 0;
   return other > 3 ? Failure::kNoGap : Failure::kTooWide;
+}
+
+/// The top of the whole patch may be higher than where the search began; then the depths below it are others,
+/// and the patch too. gather(z): the points around depth z.
+template <class Gather>
+Failure settle_top(const SceneView& scene, const Gripper& g, CheckBuffers& buffers, const Gather& gather,
+                   PatchFit& fit) {
+  constexpr int kMostRounds = 4;
+  for (int round = 0; round < kMostRounds; ++round) {
+    const float before = fit.top_m;
+    const float low = fit.center_m - 0.5f * fit.width_m, high = low + fit.width_m;
+    if (!find_top(buffers, low, high, fit.top_m)) return Failure::kTooFewPoints;
+    if (const Failure failure = find_patch(scene, g, buffers, fit.center_m, fit); failure != Failure::kNone)
+      return failure;
+    if (std::abs(fit.top_m - before) < kBin) break;
+    // What was gathered may end short of a top so far up.
+    if (fit.top_m < -kTopWindow) gather(fit.top_m);
+  }
+  return Failure::kNone;
 }
 
 void shift(LocalPoints& local, float f, float z) {
@@ -168,12 +187,7 @@ Failure fit_patch(const SceneView& scene, const Gripper& gripper, const HandleCh
   if (!find_top(buffers, -kTopWindow, kTopWindow, fit.top_m)) return Failure::kTooFewPoints;
   if (const Failure failure = find_patch(scene, g, buffers, 0, fit); failure != Failure::kNone)
     return failure;
-  // The top of the whole patch may be higher than where the search began; then the depths below it are
-  // others.
-  const float low = fit.center_m - 0.5f * fit.width_m, high = low + fit.width_m;
-  if (!find_top(buffers, low, high, fit.top_m)) return Failure::kTooFewPoints;
-  if (fit.top_m < -kTopWindow) gather(fit.top_m);
-  if (const Failure failure = find_patch(scene, g, buffers, fit.center_m, fit); failure != Failure::kNone)
+  if (const Failure failure = settle_top(scene, g, buffers, gather, fit); failure != Failure::kNone)
     return failure;
   const float raise = raise_for_obstacles(scene, g, config, candidate, buffers, fit);
   if (raise > g.grasp_depth_m - config.min_grip_depth_m) return Failure::kFingers;

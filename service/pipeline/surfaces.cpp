@@ -51,6 +51,7 @@ Surfaces find_surfaces(const PointCloud& cloud, const DetectConfig& config, cons
   s.segments = build_segments(s.cloud, labels, leaf, config.segments);
   done("segments");
   s.objects = group_segments(s.cloud, s.normals, neighborhoods, s.segments, is_support, config.objects);
+  s.wholes = merge_objects(s.cloud, s.normals, neighborhoods, s.objects, config.objects);
   done("objects");
   return s;
 }

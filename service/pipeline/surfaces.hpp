@@ -24,8 +24,7 @@ struct Surfaces {
   std::optional<Support> support;
   Segments segments;
   Objects objects;
-
-  [[nodiscard]] SearchInput search_input() const { return {cloud, normals, segments, objects, support}; }
+  Objects wholes;  ///< the coarser guess: each is one object or several
 };
 
 /// All points must be finite, and there must be at least one.

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+// A circle through the profile of what is between the jaws: how a round object goes on where it is not seen.
+#pragma once
+#include <Eigen/Core>
+#include <optional>
+#include <span>
+
+namespace graspd {
+
+struct Circle {
+  Eigen::Vector2f center = Eigen::Vector2f::Zero();  ///< [m]
+  float radius = 0;                                  ///< [m]
+};
+
+/// Least squares in the algebraic distance (Kasa), reweighted by Cauchy weights with a scale of 1.5 mm.
+/// Nothing where fewer than 12 points are given, where the circle does not pass within 2.5 mm of nine of ten
+/// points, or where these see less than a sixth of it: then the points do not tell a circle from something
+/// else.
+[[nodiscard]] std::optional<Circle> fit_circle(std::span<const Eigen::Vector2f> points, float max_radius_m);
+
+}  // namespace graspd
