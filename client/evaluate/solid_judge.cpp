@@ -60,10 +60,26 @@ struct Contact {
   double travel_m = std::numeric_limits<double>::infinity();
   std::size_t solid = kNoSolid;
   double top = std::numeric_limits<double>::infinity();  ///< smallest z of the object at this jaw
-  Vector3d center = Vector3d::Zero();
-  Vector3d normal = Vector3d::Zero();  ///< mean, unit length
-  double area_m2 = 0;                  ///< within the friction cone
+  std::vector<PadHit> spots;                             ///< touched
+  Vector3d normal = Vector3d::Zero();                    ///< mean, unit length
+  double area_m2 = 0;                                    ///< touched within the friction cone
 };
+
+/// The cosine between the line through two touched spots and the normal that is farther from it, for the two
+/// spots where it is largest. Pads press with their faces: a line through any two of their spots will do.
+double best_line(const Contact& negative, const Contact& positive) {
+  constexpr std::size_t kMany = 64;
+  const std::size_t step0 = negative.spots.size() / kMany + 1, step1 = positive.spots.size() / kMany + 1;
+  double best = -1;
+  for (std::size_t i = 0; i < negative.spots.size(); i += step0) {
+    for (std::size_t k = 0; k < positive.spots.size(); k += step1) {
+      const PadHit &a = negative.spots[i], &b = positive.spots[k];
+      const Vector3d line = (b.spot - a.spot).normalized();
+      best = std::max(best, std::min(-a.normal.dot(line), b.normal.dot(line)));
+    }
+  }
+  return best;
+}
 
 class Check {
  public:
@@ -86,6 +102,8 @@ class Check {
   [[nodiscard]] bool is_support(std::size_t i) const {
     return probe_.scene().solids[i].label == kLabelSupport;
   }
+
+  [[nodiscard]] bool is_wall(std::size_t i) const { return probe_.scene().solids[i].label == kLabelBinWall; }
 
   /// The first solid with matter in the box: the support before others.
   std::size_t obstacle(const AlignedBox3d& box, std::size_t but) const {
@@ -132,21 +150,21 @@ class Check {
 
   [[nodiscard]] Contact touched(const std::vector<PadHit>& hits, double side, double cell_m2) const {
     Contact contact;
-    for (const PadHit& hit : hits)
-      if (hit.travel_m < contact.travel_m) contact = {hit.travel_m, hit.solid};
+    for (const PadHit& hit : hits) {
+      if (hit.travel_m >= contact.travel_m) continue;
+      contact.travel_m = hit.travel_m;
+      contact.solid = hit.solid;
+    }
     if (contact.solid == kNoSolid) return contact;
     const double cone = std::cos(std::atan(config_.friction));
-    int spots = 0;
     for (const PadHit& hit : hits) {
       if (hit.solid != contact.solid) continue;
       contact.top = std::min(contact.top, hit.spot.z());
       if (hit.travel_m > contact.travel_m + config_.pad_give_m) continue;
-      contact.center += hit.spot;
+      contact.spots.push_back(hit);
       contact.normal += hit.normal;
       if (side * hit.normal.y() >= cone) contact.area_m2 += cell_m2;
-      ++spots;
     }
-    contact.center /= spots;
     contact.normal.normalize();
     return contact;
   }
@@ -162,9 +180,6 @@ class Check {
       verdict_.contact_deg[i] = kDegrees * std::acos(std::clamp(kSides[i] * jaws[i].normal.y(), -1.0, 1.0));
       verdict_.contact_m2[i] = jaws[i].area_m2;
     }
-    const Vector3d line = jaws[1].center - jaws[0].center;
-    verdict_.line_deg = kDegrees * std::acos(std::clamp(line.y() / line.norm(), -1.0, 1.0));
-    line_ = line.normalized();
   }
 
   SolidFailure closing() {
@@ -172,7 +187,6 @@ class Check {
     verdict_.solid = jaws[0].solid != kNoSolid ? jaws[0].solid : jaws[1].solid;
     if (jaws[0].solid == kNoSolid || jaws[1].solid == kNoSolid) return SolidFailure::kNothing;
     if (jaws[0].solid != jaws[1].solid) return SolidFailure::kTwoObjects;
-    if (probe_.scene().solids[verdict_.solid].label < object_label(kFirstObject)) return SolidFailure::kFixed;
     measure(jaws);
     for (std::size_t i = 0; i < 2; ++i) {
       const double open = hand_.half_opening;
@@ -185,23 +199,21 @@ class Check {
     return grip(jaws);
   }
 
-  [[nodiscard]] SolidFailure grip(const std::array<Contact, 2>& jaws) const {
+  SolidFailure grip(const std::array<Contact, 2>& jaws) {
     if (std::abs(verdict_.off_center_m) > config_.max_off_center_m) return SolidFailure::kOffCenter;
     if (verdict_.depth_m < config_.min_depth_m) return SolidFailure::kShallow;
     const double cone_deg = kDegrees * std::atan(config_.friction);
     if (std::max(verdict_.contact_deg[0], verdict_.contact_deg[1]) > cone_deg) return SolidFailure::kFriction;
     if (std::min(jaws[0].area_m2, jaws[1].area_m2) < config_.min_contact_m2) return SolidFailure::kContact;
-    const double cone = std::cos(std::atan(config_.friction));
-    for (std::size_t i = 0; i < 2; ++i)
-      if (kSides[i] * jaws[i].normal.dot(line_) < cone) return SolidFailure::kOpposite;
-    return SolidFailure::kNone;
+    verdict_.line_deg = kDegrees * std::acos(std::clamp(best_line(jaws[0], jaws[1]), -1.0, 1.0));
+    if (verdict_.line_deg > cone_deg) return SolidFailure::kOpposite;
+    return is_wall(verdict_.solid) ? SolidFailure::kFixed : SolidFailure::kNone;
   }
 
   const SolidProbe& probe_;
   const SolidJudgeConfig& config_;
   const Hand& hand_;
   std::vector<std::size_t> near_;
-  Vector3d line_ = Vector3d::UnitY();  // from the contact at -y to the one at +y
   SolidVerdict verdict_;
 };
 
@@ -209,8 +221,8 @@ class Check {
 
 std::string_view name(SolidFailure failure) {
   constexpr std::array<std::string_view, kNumSolidFailures + 1> kNames{
-      "support", "finger",     "palm",    "way",      "nothing", "two_objects", "fixed",
-      "blocked", "off_center", "shallow", "friction", "contact", "opposite",    "none"};
+      "support",    "finger",  "palm",     "way",     "nothing",  "two_objects", "blocked",
+      "off_center", "shallow", "friction", "contact", "opposite", "fixed",       "none"};
   return kNames[static_cast<std::size_t>(failure)];
 }
 

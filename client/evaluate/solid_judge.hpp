@@ -37,13 +37,13 @@ enum class SolidFailure : std::uint8_t {
   kWay,         ///< the hand would, on its way in
   kNothing,     ///< nothing between the jaws
   kTwoObjects,  ///< the jaws meet different objects
-  kFixed,       ///< they meet a wall of the bin
   kBlocked,     ///< a jaw would be stopped by something else before it touches
   kOffCenter,   ///< the object would be pushed far before the other jaw touches
   kShallow,     ///< too little of the object between the jaws
   kFriction,    ///< the contacts' normals are out of the friction cone
   kContact,     ///< too little of a pad touches within the friction cone
-  kOpposite,    ///< the line through both contacts is out of the cones
+  kOpposite,    ///< no line through both contacts is within both cones
+  kFixed,       ///< it would hold, but a wall of the bin
   kNone
 };
 inline constexpr std::size_t kNumSolidFailures = static_cast<std::size_t>(SolidFailure::kNone);
@@ -60,7 +60,7 @@ struct SolidVerdict {
   double depth_m = 0;              ///< how far the object reaches between the jaws
   std::array<double, 2> contact_deg{};  ///< of the mean normal from the closing axis, at -y and +y
   std::array<double, 2> contact_m2{};   ///< touched within the friction cone
-  double line_deg = 0;                  ///< of the line through both contacts from the closing axis
+  double line_deg = 0;  ///< of the best line through both contacts from the normal that is farther from it
 
   [[nodiscard]] bool holds() const { return failure == SolidFailure::kNone; }
   /// The reason with what it was measured by, one line.

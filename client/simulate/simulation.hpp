@@ -38,6 +38,8 @@ class Simulation {
 
   /// Of the last frame.
   [[nodiscard]] const Scene& scene() const { return scene_; }
+  /// The last frame without the sensor's noise.
+  [[nodiscard]] const DepthFrame& ideal() const { return ideal_; }
   [[nodiscard]] Eigen::Isometry3d T_world_camera(std::int64_t k) const;
 
  private:
