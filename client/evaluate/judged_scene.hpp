@@ -41,7 +41,7 @@ struct JudgedScene {
   JudgedFrame frame;  ///< its name is the frame's number; objects are labels; handles in the camera's frame
   std::vector<SceneObject> objects;
   std::vector<SceneHandle> handles;  ///< in the order of the frame's
-  int wall_handles = 0;              ///< that would hold a wall of the bin: no object, so not in the frame
+  int wall_handles = 0;  ///< with a wall of the bin between the jaws: no object, so not in the frame
 };
 
 /// The object whose surface is nearest to a point, or that the point is in; kNoSolid without objects.

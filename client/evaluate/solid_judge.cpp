@@ -105,22 +105,30 @@ class Check {
 
   [[nodiscard]] bool is_wall(std::size_t i) const { return probe_.scene().solids[i].label == kLabelBinWall; }
 
-  /// The first solid with matter in the box: the support before others.
-  std::size_t obstacle(const AlignedBox3d& box, std::size_t but) const {
-    std::size_t found = kNoSolid;
-    for (const std::size_t i : near_) {
-      const Solid& solid = probe_.scene().solids[i];
-      if (i == but || (found != kNoSolid && !is_support(i))) continue;
-      const Eigen::Isometry3d T_solid_hand = solid.T_world_solid.inverse() * hand_.T_world_hand;
-      if (reaches_into(solid, T_solid_hand, box, config_.penetration_m)) found = i;
-    }
-    return found;
+  [[nodiscard]] bool is_in(std::size_t i, const AlignedBox3d& box) const {
+    const Solid& solid = probe_.scene().solids[i];
+    const Eigen::Isometry3d T_solid_hand = solid.T_world_solid.inverse() * hand_.T_world_hand;
+    return reaches_into(solid, T_solid_hand, box, config_.penetration_m);
   }
 
-  SolidFailure collision(const AlignedBox3d& box, SolidFailure failure, std::size_t but = kNoSolid) {
-    verdict_.blocker = obstacle(box, but);
-    if (verdict_.blocker == kNoSolid) return SolidFailure::kNone;
-    return is_support(verdict_.blocker) ? SolidFailure::kSupport : failure;
+  /// What the box goes into: the support before anything else.
+  SolidFailure collision(const AlignedBox3d& box, SolidFailure failure) {
+    if (in_support(box)) return SolidFailure::kSupport;
+    for (const std::size_t i : near_) {
+      if (is_support(i) || !is_in(i, box)) continue;
+      verdict_.blocker = i;
+      return failure;
+    }
+    return SolidFailure::kNone;
+  }
+
+  bool in_support(const AlignedBox3d& box) {
+    for (const std::size_t i : near_) {
+      if (!is_support(i) || !is_in(i, box)) continue;
+      verdict_.blocker = i;
+      return true;
+    }
+    return false;
   }
 
   SolidFailure way_in() {
@@ -187,14 +195,14 @@ class Check {
     verdict_.solid = jaws[0].solid != kNoSolid ? jaws[0].solid : jaws[1].solid;
     if (jaws[0].solid == kNoSolid || jaws[1].solid == kNoSolid) return SolidFailure::kNothing;
     if (jaws[0].solid != jaws[1].solid) return SolidFailure::kTwoObjects;
+    if (is_wall(verdict_.solid)) return SolidFailure::kFixed;
     measure(jaws);
     for (std::size_t i = 0; i < 2; ++i) {
+      // Closing at a slant, a jaw may sink into the support; anything else in its way it would have met
+      // first.
       const double open = hand_.half_opening;
       const double closed = open + config_.penetration_m - jaws[i].travel_m;
-      if (closed >= open) continue;
-      const auto hit =
-          collision(hand_.beside(kSides[i], closed, open), SolidFailure::kBlocked, verdict_.solid);
-      if (hit != SolidFailure::kNone) return hit;
+      if (closed < open && in_support(hand_.beside(kSides[i], closed, open))) return SolidFailure::kSupport;
     }
     return grip(jaws);
   }
@@ -207,7 +215,7 @@ class Check {
     if (std::min(jaws[0].area_m2, jaws[1].area_m2) < config_.min_contact_m2) return SolidFailure::kContact;
     verdict_.line_deg = kDegrees * std::acos(std::clamp(best_line(jaws[0], jaws[1]), -1.0, 1.0));
     if (verdict_.line_deg > cone_deg) return SolidFailure::kOpposite;
-    return is_wall(verdict_.solid) ? SolidFailure::kFixed : SolidFailure::kNone;
+    return SolidFailure::kNone;
   }
 
   const SolidProbe& probe_;
@@ -221,8 +229,8 @@ class Check {
 
 std::string_view name(SolidFailure failure) {
   constexpr std::array<std::string_view, kNumSolidFailures + 1> kNames{
-      "support",    "finger",  "palm",     "way",     "nothing",  "two_objects", "blocked",
-      "off_center", "shallow", "friction", "contact", "opposite", "fixed",       "none"};
+      "support",    "finger",  "palm",     "way",     "nothing",  "two_objects", "fixed",
+      "off_center", "shallow", "friction", "contact", "opposite", "none"};
   return kNames[static_cast<std::size_t>(failure)];
 }
 

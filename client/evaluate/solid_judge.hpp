@@ -37,13 +37,12 @@ enum class SolidFailure : std::uint8_t {
   kWay,         ///< the hand would, on its way in
   kNothing,     ///< nothing between the jaws
   kTwoObjects,  ///< the jaws meet different objects
-  kBlocked,     ///< a jaw would be stopped by something else before it touches
+  kFixed,       ///< they meet a wall of the bin
   kOffCenter,   ///< the object would be pushed far before the other jaw touches
   kShallow,     ///< too little of the object between the jaws
   kFriction,    ///< the contacts' normals are out of the friction cone
   kContact,     ///< too little of a pad touches within the friction cone
   kOpposite,    ///< no line through both contacts is within both cones
-  kFixed,       ///< it would hold, but a wall of the bin
   kNone
 };
 inline constexpr std::size_t kNumSolidFailures = static_cast<std::size_t>(SolidFailure::kNone);
