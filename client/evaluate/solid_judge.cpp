@@ -143,9 +143,11 @@ class Check {
     return SolidFailure::kNone;
   }
 
+  /// Where pads start to look for contact: clear of what an open finger may be within.
+  [[nodiscard]] double outside() const { return hand_.half_opening + 2 * config_.penetration_m; }
+
   Contact contact(double side) const {
-    // From as far outside as the finger may be within matter.
-    const double start = hand_.half_opening + config_.penetration_m;
+    const double start = outside();
     const PadSweep sweep{hand_.beside(side, start, start), -side, start + hand_.half_opening,
                          config_.pad_spacing_m};
     std::vector<std::size_t> movable;
@@ -178,7 +180,7 @@ class Check {
   }
 
   void measure(const std::array<Contact, 2>& jaws) {
-    const double open = hand_.half_opening + config_.penetration_m;
+    const double open = outside();
     const double low = -open + jaws[0].travel_m, high = open - jaws[1].travel_m;
     verdict_.width_m = high - low;
     verdict_.off_center_m = 0.5 * (high + low);
@@ -201,7 +203,7 @@ class Check {
       // Closing at a slant, a jaw may sink into the support; anything else in its way it would have met
       // first.
       const double open = hand_.half_opening;
-      const double closed = open + config_.penetration_m - jaws[i].travel_m;
+      const double closed = outside() - jaws[i].travel_m;
       if (closed < open && in_support(hand_.beside(kSides[i], closed, open))) return SolidFailure::kSupport;
     }
     return grip(jaws);

@@ -11,7 +11,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kFinest = 3e-4;
+constexpr double kFinest = 4e-4;
+constexpr double kRounding = 1e-6;
 
 Eigen::AlignedBox3d bounds_of(const Solid& solid) {
   Eigen::AlignedBox3d box;
@@ -35,7 +36,7 @@ bool overlap(const Solid& a, const Solid& b) {
   const auto common = [&](const Vector3d& p) {
     return std::max(signed_distance_in_solid(a, p), signed_distance_in_solid(b, T_b_a * p));
   };
-  return falls_below(common, box, 0, kFinest);
+  return falls_below(common, box, -kRounding, kFinest);
 }
 
 std::optional<Eigen::Isometry3d> lowered(const Scene& scene, const Solid& object, double drop_m) {

@@ -8,7 +8,7 @@
 
 namespace graspd {
 
-/// Whether two solids have matter in common, to within 0.3 mm.
+/// Whether two solids have matter in common, deeper than 0.4 mm; by less they may have.
 [[nodiscard]] bool overlap(const Solid& a, const Solid& b);
 
 /// The object's pose after it was lowered straight down from its own, by drop_m at most, to its first contact
