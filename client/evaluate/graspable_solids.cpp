@@ -10,6 +10,8 @@
 #include <numbers>
 #include <optional>
 
+#include "client/evaluate/disturbance.hpp"
+
 namespace graspd {
 namespace {
 
@@ -97,8 +99,7 @@ class Search {
     handle.width_m = static_cast<float>(extent.width());
     const SolidVerdict verdict = judge_.judge(handle);
     if (!verdict.holds() || verdict.solid != object_.solid) return;
-    if (undisturbed(judge_, handle, object_.solid, config_) >= config_.min_undisturbed)
-      poses_.push_back(handle);
+    if (undisturbed(judge_, handle, object_.solid) >= config_.min_undisturbed) poses_.push_back(handle);
   }
 
   /// Of the matter below the spot, out to where it ends on both sides: walls as well as whole objects.
@@ -149,26 +150,12 @@ class Search {
 
 }  // namespace
 
-int undisturbed(const SolidJudge& judge, const Handle& handle_world, std::size_t solid,
-                const GraspSearchConfig& config) {
-  int held = 0;
-  const auto count = [&](const Handle& handle) {
+int undisturbed(const SolidJudge& judge, const Handle& handle_world, std::size_t solid) {
+  const auto others = disturbed(handle_world);
+  return static_cast<int>(std::count_if(others.begin(), others.end(), [&](const Handle& handle) {
     const SolidVerdict verdict = judge.judge(handle);
-    held += verdict.holds() && verdict.solid == solid ? 1 : 0;
-  };
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const double sign : {-1.0, 1.0}) {
-      Handle shifted = handle_world;
-      shifted.position += static_cast<float>(sign * config.shift_m) * handle_world.rotation.col(axis);
-      count(shifted);
-      Handle turned = handle_world;
-      const auto angle = static_cast<float>(sign * kRadians * config.turn_deg);
-      turned.rotation =
-          handle_world.rotation * Eigen::AngleAxisf(angle, Eigen::Vector3f::Unit(axis)).matrix();
-      count(turned);
-    }
-  }
-  return held;
+    return verdict.holds() && verdict.solid == solid;
+  }));
 }
 
 std::vector<GraspableSolid> graspable_solids(const SolidJudge& judge, const DepthFrame& frame,

@@ -21,8 +21,6 @@ struct GraspSearchConfig {
   int closing_directions = 18;    ///< in half a turn about the approach
   int min_poses = 3;              ///< robust ones that an object needs
   int min_undisturbed = 8;        ///< of 12 disturbances that a robust pose holds in
-  double shift_m = 0.003;         ///< a disturbance along each axis, both ways
-  double turn_deg = 5;            ///< a disturbance about each axis, both ways
   double max_behind_deg = 80;     ///< between the way back along the approach and the line of sight
 };
 
@@ -40,9 +38,7 @@ struct GraspableSolid {
                                                            const Eigen::Isometry3d& T_world_camera,
                                                            const GraspSearchConfig& config = {});
 
-/// In how many of 12 disturbances, a shift and a turn both ways along and about each of the gripper's axes,
-/// a handle holds the same solid as without.
-[[nodiscard]] int undisturbed(const SolidJudge& judge, const Handle& handle_world, std::size_t solid,
-                              const GraspSearchConfig& config = {});
+/// In how many of the 12 disturbances of disturbance.hpp a handle holds the same solid as without.
+[[nodiscard]] int undisturbed(const SolidJudge& judge, const Handle& handle_world, std::size_t solid);
 
 }  // namespace graspd

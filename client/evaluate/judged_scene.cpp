@@ -60,7 +60,8 @@ JudgedScene judge_scene(const TrueFrame& truth, const std::vector<Handle>& handl
     if (verdict.solid == kNoSolid) verdict.solid = nearest_object(scene, in_world.position.cast<double>());
     judged.frame.handles.push_back({handle, label_of(scene, verdict.solid), verdict.holds(),
                                     verdict.holds() ? "" : std::string(name(verdict.failure))});
-    judged.handles.push_back({in_world, verdict, verdict.text(scene)});
+    const int undisturbed_in = verdict.holds() ? undisturbed(judge, in_world, verdict.solid) : 0;
+    judged.handles.push_back({in_world, verdict, undisturbed_in, verdict.text(scene)});
   }
   return judged;
 }

@@ -34,6 +34,7 @@ struct SceneObject {
 struct SceneHandle {
   Handle handle_world;
   SolidVerdict verdict;
+  int undisturbed = 0;      ///< of 12 disturbances that it holds in; 0 when it does not hold
   std::string explanation;  ///< one line
 };
 
@@ -41,6 +42,7 @@ struct JudgedScene {
   JudgedFrame frame;  ///< its name is the frame's number; objects are labels; handles in the camera's frame
   std::vector<SceneObject> objects;
   std::vector<SceneHandle> handles;  ///< in the order of the frame's
+  bool has_list = true;              ///< false: the file of handles does not name the frame
   int wall_handles = 0;  ///< with a wall of the bin between the jaws: no object, so not in the frame
 };
 
@@ -59,6 +61,9 @@ struct JudgedScene {
 
 /// Recall and precision for each kind of object.
 [[nodiscard]] Table kind_table(const std::vector<JudgedScene>& scenes);
+
+/// How many of the handles that hold still do so in at least 10 of 12 disturbances.
+[[nodiscard]] Table scene_steadiness_table(const std::vector<JudgedScene>& scenes);
 
 /// The frames with most failed handles and missed objects, worst first.
 [[nodiscard]] Table worst_scene_table(const std::vector<JudgedScene>& scenes, std::size_t rows);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The graspd authors
 // SPDX-License-Identifier: BSD-3-Clause
-// graspd-evaluate: recall and precision of handles against labelled frames.
+// graspd-evaluate: recall and precision of handles against labelled frames, or the solids of simulated
+// scenes.
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 #include <unistd.h>
@@ -14,6 +15,7 @@
 #include "client/detect/detect_options.hpp"
 #include "client/evaluate/evaluator.hpp"
 #include "client/evaluate/graspable_search.hpp"
+#include "client/evaluate/simulate_mode.hpp"
 #include "service/config/config_error.hpp"
 
 namespace graspd {
@@ -38,6 +40,7 @@ struct Options {
   bool disturb = false;
   bool explain = false;
   bool summary = false;
+  SimulateOptions simulate;
   TableFormat format = TableFormat::kMarkdown;
 };
 
@@ -67,8 +70,8 @@ void add_handle_options(CLI::App& app, Options& o) {
 
 void add_options(CLI::App& app, Options& o) {
   add_version(app);
-  app.add_option("frames", o.frames, "labelled PCD or PLY files, folders of them, or LCM event logs")
-      ->required();
+  auto* frames =
+      app.add_option("frames", o.frames, "labelled PCD or PLY files, folders of them, or LCM event logs");
   add_detect_options(app, o.detect);
   add_handle_options(app, o);
   auto* graspable = app.add_option("--graspable", o.graspable,
@@ -88,6 +91,7 @@ void add_options(CLI::App& app, Options& o) {
   app.add_flag("--disturb", o.disturb, "how many handles hold when the robot is 3 mm or 5 degrees off");
   app.add_flag("--explain", o.explain, "every invalid handle with its reason");
   app.add_flag("--summary", o.summary, "no tables of single frames and objects");
+  add_simulate_options(app, o.simulate)->excludes(frames)->excludes(graspable);
 }
 
 EvaluatorConfig evaluator_config(const Options& o, const SourceConfig& source) {
@@ -184,11 +188,24 @@ int print_graspable(const CLI::App& app, const Options& o, const Gripper& grippe
   });
 }
 
+int evaluate_scenes(const Options& o, const SourceConfig& source) {
+  tbb::task_arena arena(thread_count(o.detect));
+  const Eigen::Isometry3f T_cloud_handles = source.sensor_pose.T_target_cloud().inverse();
+  const auto runs = evaluated_runs(o, source);
+  const auto tables = arena.execute([&] {
+    return simulate_tables(o.simulate, runs, T_cloud_handles, {o.calibration, o.disturb, o.explain});
+  });
+  write_output(write_tables(tables, o.format));
+  return kExitOk;
+}
+
 int evaluate(const CLI::App& app, const Options& o) {
   const SourceConfig source = source_config(o.detect);
   const int threads = thread_count(o.detect);
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
+  if (o.simulate.given()) return evaluate_scenes(o, source);
+  if (o.frames.empty()) throw ConfigError("frames: files, folders or logs are needed, or --simulate");
   if (o.find_graspable) return print_graspable(app, o, source.gripper.gripper);
   Evaluator evaluator(evaluated_runs(o, source), evaluator_config(o, source));
   tbb::task_arena arena(threads);
@@ -208,7 +225,8 @@ int evaluate(const CLI::App& app, const Options& o) {
 
 int main(int argc, char** argv) {
   using namespace graspd;
-  CLI::App app("Recall and precision of handles against labelled frames.", "graspd-evaluate");
+  CLI::App app("Recall and precision of handles against labelled frames or simulated scenes.",
+               "graspd-evaluate");
   Options options;
   add_options(app, options);
   return run_program(app, argc, argv, [&] { return evaluate(app, options); });

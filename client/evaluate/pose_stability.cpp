@@ -55,7 +55,7 @@ std::vector<ObjectStability> pose_stability(SimulationConfig simulation, std::in
   std::map<std::size_t, std::size_t> row;
   for (std::int64_t k = 0; k < frames; ++k) {
     const TrueFrame truth = true_frame(simulation, k);
-    const auto best = best_handles(truth, handles(truth));
+    const auto best = best_handles(truth, handles(truth).value_or(std::vector<Handle>()));
     if (k == 0) {
       first = best;
       for (const auto& [solid, handle] : first) {

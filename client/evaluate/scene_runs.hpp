@@ -4,28 +4,28 @@
 #pragma once
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "client/evaluate/evaluator.hpp"
 #include "client/evaluate/judged_scene.hpp"
-#include "service/pipeline/detect_config.hpp"
 
 namespace graspd {
 
-/// Handles of a frame, in the camera's frame, best first.
-using HandlesOfFrame = std::function<std::vector<Handle>(const TrueFrame&)>;
+/// Handles of a frame in the camera's frame, best first; nothing where a file of handles does not name it.
+using HandlesOfFrame = std::function<std::optional<std::vector<Handle>>(const TrueFrame&)>;
 
-/// What the method finds with these settings, as the daemon would.
-[[nodiscard]] HandlesOfFrame detector(const Gripper& gripper, const DetectConfig& config);
+/// Detected with the run's settings, or looked up in its file by the frame's number. T_cloud_handles takes
+/// handles of files back into the camera's frame. The run must outlive it.
+[[nodiscard]] HandlesOfFrame handle_source(const EvaluatedRun& run, const Eigen::Isometry3f& T_cloud_handles);
 
 struct SceneRange {
   std::int64_t first = 0;
   std::int64_t num = 20;
 };
 
-/// Called after each frame with the number of those that are done; from any thread, one at a time.
+/// Called after each frame with the number of those that are done; one call at a time.
 using Progress = std::function<void(std::int64_t)>;
 
 /// One judged scene a frame, in order. Work is split over the calling thread's oneTBB arena; the result does

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "client/evaluate/evaluator.hpp"
 #include "client/evaluate/judged_scene.hpp"
 
 namespace graspd {
@@ -113,6 +114,20 @@ Table kind_table(const std::vector<JudgedScene>& scenes) {
   if (wall_handles > 0)
     table.rows.push_back({"wall of the bin, not counted", {}, {}, {}, {}, wall_handles, {}, {}});
   return table;
+}
+
+Table scene_steadiness_table(const std::vector<JudgedScene>& scenes) {
+  Count valid = 0, steady = 0;
+  for (const JudgedScene& scene : scenes) {
+    for (const SceneHandle& handle : scene.handles) {
+      valid += handle.verdict.holds() ? 1 : 0;
+      steady += handle.undisturbed >= Steadiness::kWanted ? 1 : 0;
+    }
+  }
+  return {"disturbances",
+          "Handles when the robot is a little off",
+          {"valid", "still valid in 10 of 12"},
+          {{valid, share_of(steady, valid)}}};
 }
 
 Table worst_scene_table(const std::vector<JudgedScene>& scenes, std::size_t rows) {

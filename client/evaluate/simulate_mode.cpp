@@ -27,38 +27,43 @@ Progress progress_of(std::int64_t all) {
   };
 }
 
-std::vector<JudgedScene> run(const SimulateOptions& o, const Gripper& gripper, const DetectConfig& config,
-                             const HandlesOfFrame& handles) {
-  return judge_scenes(simulation_config(o), o.scenes, gripper, handles ? handles : detector(gripper, config),
-                      o.kind, progress_of(o.scenes.num));
-}
-
-std::vector<Table> aperture_tables(const SimulateOptions& o, const Gripper& gripper,
-                                   const DetectConfig& config) {
-  std::vector<NamedRun> runs;
-  for (const float aperture_m : o.apertures_m) {
-    Gripper other = gripper;
-    other.aperture_m = aperture_m;
-    runs.push_back({printed("d = %.0f mm", 1e3 * double{aperture_m}), frames_of(run(o, other, config, {}))});
-  }
-  return {figures_table(runs)};
-}
-
-std::vector<Table> stability_tables(const SimulateOptions& o, const Gripper& gripper,
-                                    const DetectConfig& config) {
+std::vector<Table> stability_tables(const SimulateOptions& o, const HandlesOfFrame& handles) {
   std::vector<ObjectStability> objects;
   SimulationConfig simulation = simulation_config(o);
   for (std::int64_t i = 0; i < o.scenes.num; ++i) {
     simulation.seed = o.seed + static_cast<std::uint64_t>(o.scenes.first + i);
-    const auto found = pose_stability(simulation, o.stability, detector(gripper, config));
+    const auto found = pose_stability(simulation, o.stability, handles);
     objects.insert(objects.end(), found.begin(), found.end());
   }
   return {stability_table(objects, o.stability)};
 }
 
+/// Frames count as frames without handles when a file does not name them; that must not go unseen.
+Table unnamed_frame_table(const std::vector<JudgedScene>& scenes) {
+  Table table{"unnamed", "Frames that the file of handles does not name", {"frame"}, {}};
+  for (const JudgedScene& scene : scenes)
+    if (!scene.has_list) table.rows.push_back({scene.frame.name});
+  return table;
+}
+
+std::vector<Table> details(const std::vector<JudgedScene>& scenes, const SimulateTables& wanted) {
+  constexpr std::size_t kWorst = 10;
+  const auto frames = frames_of(scenes);
+  std::vector<Table> tables{failure_table(frames), kind_table(scenes), worst_scene_table(scenes, kWorst)};
+  if (Table unnamed = unnamed_frame_table(scenes); !unnamed.rows.empty())
+    tables.push_back(std::move(unnamed));
+  if (wanted.disturb) tables.push_back(scene_steadiness_table(scenes));
+  if (wanted.calibration) tables.push_back(calibration_table(frames));
+  if (wanted.explain) {
+    tables.push_back(failed_handle_table(scenes));
+    tables.push_back(missed_object_table(scenes));
+  }
+  return tables;
+}
+
 }  // namespace
 
-void add_simulate_options(CLI::App& app, SimulateOptions& o) {
+CLI::Option* add_simulate_options(CLI::App& app, SimulateOptions& o) {
   const std::string group = "Simulated scenes";
   auto* simulate =
       app.add_option("--simulate", o.kind, "judge on the true solids of simulated scenes of this kind")
@@ -83,22 +88,13 @@ void add_simulate_options(CLI::App& app, SimulateOptions& o) {
       ->needs(simulate)
       ->capture_default_str()
       ->group(group);
-  app.add_flag("--list", o.list, "every handle that does not hold and every object missed, with poses")
-      ->needs(simulate)
-      ->group(group);
-  auto* apertures = app.add_option("--apertures", o.apertures_m,
-                                   "a run for each of these apertures d [m], other lengths kept")
-                        ->delimiter(',')
-                        ->check(CLI::Range(0.005, 0.5))
-                        ->needs(simulate)
-                        ->group(group);
   app.add_option(
          "--stability", o.stability,
          "instead: how far the best handle of each object moves over so many noisy frames of one scene")
       ->check(CLI::Range(2, 100000))
       ->needs(simulate)
-      ->excludes(apertures)
       ->group(group);
+  return simulate;
 }
 
 SimulationConfig simulation_config(const SimulateOptions& o) {
@@ -111,19 +107,19 @@ SimulationConfig simulation_config(const SimulateOptions& o) {
   return config;
 }
 
-std::vector<Table> simulate_tables(const SimulateOptions& o, const Gripper& gripper,
-                                   const DetectConfig& config, const HandlesOfFrame& handles) {
-  if (o.stability > 0) return stability_tables(o, gripper, config);
-  if (!o.apertures_m.empty()) return aperture_tables(o, gripper, config);
-  const auto scenes = run(o, gripper, config, handles);
-  const auto frames = frames_of(scenes);
-  constexpr std::size_t kWorst = 10;
-  std::vector<Table> tables{figures_table(std::vector{NamedRun{o.kind, frames}}), failure_table(frames),
-                            kind_table(scenes), calibration_table(frames), worst_scene_table(scenes, kWorst)};
-  if (o.list) {
-    tables.push_back(failed_handle_table(scenes));
-    tables.push_back(missed_object_table(scenes));
+std::vector<Table> simulate_tables(const SimulateOptions& o, const std::vector<EvaluatedRun>& runs,
+                                   const Eigen::Isometry3f& T_cloud_handles, const SimulateTables& wanted) {
+  if (o.stability > 0) return stability_tables(o, handle_source(runs.front(), T_cloud_handles));
+  std::vector<NamedRun> judged;
+  std::vector<JudgedScene> first;
+  for (const EvaluatedRun& run : runs) {
+    auto scenes = judge_scenes(simulation_config(o), o.scenes, run.gripper,
+                               handle_source(run, T_cloud_handles), o.kind, progress_of(o.scenes.num));
+    judged.push_back({run.name, frames_of(scenes)});
+    if (judged.size() == 1) first = std::move(scenes);
   }
+  std::vector<Table> tables{figures_table(judged)};
+  for (Table& table : details(first, wanted)) tables.push_back(std::move(table));
   return tables;
 }
 
