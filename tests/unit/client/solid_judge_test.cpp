@@ -62,6 +62,15 @@ TEST(SolidJudge, HoldsTheRimOfABowl) {
   EXPECT_EQ(judged(scene, handle_from_above(0, 0, 0.05, 0.072)), "nothing") << "within the bowl";
 }
 
+TEST(SolidJudge, HoldsTheRimOfACup) {
+  Scene scene = bare_table();
+  add_body(scene, Cylinder{0.036, 0, 0.09}, Vector3d::Zero());
+  scene.solids[1].cavity = Cylinder{0.032, 0.004, 0.2};
+  EXPECT_EQ(judged(scene, handle_from_above(0.034, 0, 0.065, 0.005)), "none");
+  EXPECT_EQ(judged(scene, handle_from_above(0, 0, 0.065, 0.072)), "none")
+      << "from outside, across the hollow";
+}
+
 TEST(SolidJudge, AFingerMustNotGoIntoAnything) {
   Scene scene = block_on_table();
   add_body(scene, kBlock, {0.046, 0, 0});
