@@ -6,9 +6,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdio>
-#include <thread>
 
 #include "client/common/answer_summary.hpp"
 #include "client/common/cloud_file.hpp"
@@ -18,20 +16,16 @@
 #include "client/common/program.hpp"
 #include "client/common/stop_flag.hpp"
 #include "client/common/text.hpp"
+#include "client/detect/detect_options.hpp"
 #include "client/detect/file_detection.hpp"
-#include "service/config/service_config.hpp"
 
 namespace graspd {
 namespace {
 
 struct Options {
   std::vector<std::string> inputs;
-  std::string config;
-  std::string source;
-  std::string gripper;
-  std::string sensor;
+  DetectOptions detect;
   std::string format = "text";
-  int threads = 0;
   std::size_t max_rows = 10;
   bool empty_rows = false;
   bool stats = false;
@@ -41,18 +35,9 @@ struct Options {
 void add_options(CLI::App& app, Options& o) {
   add_version(app);
   app.add_option("files", o.inputs, "PCD or PLY files, or folders of them")->required();
-  auto* config = app.add_option("--config", o.config, "the daemon's configuration (default: its defaults)");
-  app.add_option("--source", o.source, "which of the configuration's sources (default: the first)")
-      ->needs(config);
-  app.add_option("--gripper", o.gripper,
-                 "name of an installed gripper, or a gripper file (default: the source's)");
-  app.add_option("--sensor", o.sensor,
-                 "name of an installed sensor, or a sensor file (default: the source's)");
+  add_detect_options(app, o.detect);
   app.add_option("-f,--format", o.format, "text, csv, or json (a line a file)")
       ->check(CLI::IsMember({"text", "csv", "json"}))
-      ->capture_default_str();
-  app.add_option("--threads", o.threads, "threads to work with; 0: one a core")
-      ->check(CLI::Range(0, 256))
       ->capture_default_str();
   app.add_option("--rows", o.max_rows, "text: handles shown of a file")->capture_default_str();
   app.add_flag("--empty-rows", o.empty_rows, "csv: a line with id -1 for files without handles");
@@ -60,32 +45,6 @@ void add_options(CLI::App& app, Options& o) {
                "a line a file on standard error: counts, failures by reason, stage times");
   app.add_flag("--summary", o.summary,
                "at the end, on standard error: files by status, latency, handles a file");
-}
-
-ServiceConfig service_config(const std::filesystem::path& file) {
-  if (file.empty()) return {};
-  return load_service_config(file);
-}
-
-/// The settings of the daemon's source.
-SourceConfig source_config(const Options& o) {
-  const std::filesystem::path file = o.config;
-  const ServiceConfig config = service_config(file);
-  SourceConfig source = config.sources.front();
-  if (!o.source.empty()) {
-    const auto named = std::find_if(config.sources.begin(), config.sources.end(),
-                                    [&](const SourceConfig& s) { return s.name == o.source; });
-    if (named == config.sources.end())
-      throw ConfigError(o.config + ": sources: none has the name " + o.source);
-    source = *named;
-  }
-  if (!o.gripper.empty()) source.gripper = find_gripper(o.gripper, std::filesystem::current_path());
-  if (!o.sensor.empty()) {
-    const Eigen::Isometry3f T_box_cloud = source.detect.workspace.T_box_cloud;
-    source.detect = load_detect_config(file, o.sensor);
-    source.detect.workspace.T_box_cloud = T_box_cloud;
-  }
-  return source;
 }
 
 void print(const Options& o, const handle_list_t& list) {
@@ -104,10 +63,9 @@ void show_progress(std::size_t done, std::size_t all) {
 }
 
 int detect(const CLI::App& app, const Options& o) {
-  const SourceConfig source = source_config(o);
+  const SourceConfig source = source_config(o.detect);
   const auto files = list_cloud_files(o.inputs);
-  const int threads =
-      o.threads > 0 ? o.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  const int threads = thread_count(o.detect);
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
   tbb::task_arena arena(threads);

@@ -142,6 +142,59 @@ ObjectModel make_mug(Rng& rng) {
   return model;
 }
 
+ObjectModel make_cup(Rng& rng) {
+  const double radius = rng.uniform(0.030, 0.042);
+  const double height = rng.uniform(1.8, 2.8) * radius;
+  const double wall = rng.uniform(0.003, 0.005);
+  ObjectModel model = with_part("cup", rng, Cylinder{radius, 0, height});
+  model.solid.cavity = Cylinder{radius - wall, wall, 2 * height};
+  model.footprints.push_back(circle(radius, height));
+  return model;
+}
+
+ObjectModel make_jar(Rng& rng) {
+  const double radius = rng.uniform(0.024, 0.040);
+  const double shoulder = rng.uniform(1.8, 3.2) * radius;
+  const double lid = rng.uniform(0.012, 0.022);
+  ObjectModel model = with_part("jar", rng, Cylinder{radius, 0, shoulder});
+  model.solid.parts.emplace_back(Cylinder{rng.uniform(0.75, 0.95) * radius, shoulder, shoulder + lid});
+  model.footprints.push_back(circle(radius, shoulder + lid));
+  return model;
+}
+
+ObjectModel make_lying_bottle(Rng& rng) {
+  ObjectModel model = make_bottle(rng);
+  model.solid.kind = "lying_bottle";
+  const Footprint standing = model.footprints.front();
+  const double middle = standing.z_max / 2;
+  // Its axis along the world's x, neck first.
+  model.solid.T_world_solid.linear() << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+  model.solid.T_world_solid.translation() = Vector3d(-middle, 0, standing.radius);
+  model.footprints = {rectangle(Vector2d::Zero(), {middle, standing.radius}, 2 * standing.radius)};
+  return model;
+}
+
+ObjectModel make_pen(Rng& rng) {
+  const double radius = rng.uniform(0.005, 0.009);
+  const double length = rng.uniform(0.11, 0.17);
+  ObjectModel model = with_part("pen", rng, Cylinder{radius, -length / 2, length / 2});
+  model.solid.T_world_solid.linear() << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+  model.solid.T_world_solid.translation() = Vector3d(0, 0, radius);
+  model.footprints.push_back(rectangle(Vector2d::Zero(), {length / 2, radius}, 2 * radius));
+  return model;
+}
+
+ObjectModel make_small_block(Rng& rng) {
+  return block("small_block", rng,
+               Vector3d(rng.uniform(0.02, 0.05), rng.uniform(0.03, 0.07), rng.uniform(0.015, 0.045)) / 2);
+}
+
+ObjectModel make_standing_book(Rng& rng) {
+  const double depth = rng.uniform(0.10, 0.16);
+  return block("standing_book", rng,
+               Vector3d(rng.uniform(0.012, 0.045), depth, depth * rng.uniform(1.0, 1.4)) / 2);
+}
+
 ObjectModel make_random_object(Rng& rng) {
   using Maker = ObjectModel (*)(Rng&);
   constexpr std::array<Maker, 12> kMakers{make_box,  make_box,       make_box,    make_can,

@@ -18,6 +18,7 @@ struct ObjectModel {
   /// Half sizes of a flat top that can carry another object, and its height.
   std::optional<Eigen::Vector2d> top_half;
   double top_z = 0;
+  Eigen::Vector2d top_center = Eigen::Vector2d::Zero();
 };
 
 [[nodiscard]] ObjectModel make_box(Rng& rng);
@@ -28,8 +29,14 @@ struct ObjectModel {
 [[nodiscard]] ObjectModel make_ball(Rng& rng);
 [[nodiscard]] ObjectModel make_bowl(Rng& rng);
 [[nodiscard]] ObjectModel make_mug(Rng& rng);
+[[nodiscard]] ObjectModel make_cup(Rng& rng);
+[[nodiscard]] ObjectModel make_jar(Rng& rng);
+[[nodiscard]] ObjectModel make_lying_bottle(Rng& rng);
+[[nodiscard]] ObjectModel make_pen(Rng& rng);
+[[nodiscard]] ObjectModel make_small_block(Rng& rng);
+[[nodiscard]] ObjectModel make_standing_book(Rng& rng);
 
-/// One of the above, common things more often.
+/// The first eight of the above, common things more often.
 [[nodiscard]] ObjectModel make_random_object(Rng& rng);
 
 }  // namespace graspd

@@ -21,6 +21,15 @@ std::optional<Crossing> first_crossing(const Convex& part, const std::optional<C
   return std::nullopt;
 }
 
+std::optional<Crossing> cast_in_solid(const Solid& solid, const Ray& ray) {
+  std::optional<Crossing> best;
+  for (const Convex& part : solid.parts) {
+    const auto crossing = first_crossing(part, solid.cavity, ray);
+    if (crossing && (!best || crossing->t < best->t)) best = crossing;
+  }
+  return best;
+}
+
 std::optional<Hit> cast(const Scene& scene, const Ray& ray) {
   std::optional<Hit> best;
   for (std::size_t i = 0; i < scene.solids.size(); ++i) {
@@ -28,18 +37,18 @@ std::optional<Hit> cast(const Scene& scene, const Ray& ray) {
     const Eigen::Matrix3d R_solid_world = solid.T_world_solid.linear().transpose();
     const Ray local{R_solid_world * (ray.origin - solid.T_world_solid.translation()),
                     R_solid_world * ray.direction};
-    for (const Convex& part : solid.parts) {
-      const auto crossing = first_crossing(part, solid.cavity, local);
-      if (crossing && (!best || crossing->t < best->t)) {
-        best = Hit{crossing->t, solid.T_world_solid.linear() * crossing->normal, i};
-      }
-    }
+    const auto crossing = cast_in_solid(solid, local);
+    if (crossing && (!best || crossing->t < best->t))
+      best = Hit{crossing->t, solid.T_world_solid.linear() * crossing->normal, i};
   }
   return best;
 }
 
 double signed_distance(const Solid& solid, const Eigen::Vector3d& point_world) {
-  const Eigen::Vector3d point = solid.T_world_solid.inverse() * point_world;
+  return signed_distance_in_solid(solid, solid.T_world_solid.inverse() * point_world);
+}
+
+double signed_distance_in_solid(const Solid& solid, const Eigen::Vector3d& point) {
   double distance = std::numeric_limits<double>::infinity();
   for (const Convex& part : solid.parts) distance = std::min(distance, signed_distance(part, point));
   if (solid.cavity) distance = std::max(distance, -signed_distance(*solid.cavity, point));

@@ -39,6 +39,9 @@ struct Scene {
 [[nodiscard]] std::optional<Crossing> first_crossing(const Convex& part, const std::optional<Convex>& cavity,
                                                      const Ray& ray);
 
+/// What a ray meets first of one solid; ray and crossing in the solid's frame.
+[[nodiscard]] std::optional<Crossing> cast_in_solid(const Solid& solid, const Ray& ray);
+
 /// What a ray meets first.
 struct Hit {
   double t = 0;
@@ -48,8 +51,12 @@ struct Hit {
 
 [[nodiscard]] std::optional<Hit> cast(const Scene& scene, const Ray& ray);
 
-/// Negative inside matter. The sign is exact; the amount is never more than the true distance to the surface.
+/// Negative inside matter. The sign is exact; the amount is never more than the true distance to the surface,
+/// and differs between two points by no more than their distance.
 [[nodiscard]] double signed_distance(const Solid& solid, const Eigen::Vector3d& point_world);
+
+/// The same for a point in the solid's frame.
+[[nodiscard]] double signed_distance_in_solid(const Solid& solid, const Eigen::Vector3d& point);
 
 /// The nearest solid's; infinite in an empty scene.
 [[nodiscard]] double signed_distance(const Scene& scene, const Eigen::Vector3d& point_world);

@@ -4,27 +4,29 @@
 #pragma once
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
+#include "client/simulate/placement.hpp"
 #include "client/simulate/scene.hpp"
 
 namespace graspd {
 
-enum class SceneKind { kTable, kBin, kEmpty };
+/// table, bin: everyday objects, loosely. easy to extreme: a test bed of growing clutter, the last one a bin
+/// of touching books, bottles and boxes, some leaning or dropped on others.
+enum class SceneKind { kTable, kBin, kEmpty, kEasy, kMedium, kHard, kExtreme };
 [[nodiscard]] std::optional<SceneKind> scene_kind(std::string_view name);
+[[nodiscard]] std::vector<std::string> scene_kind_names();
+[[nodiscard]] bool in_bin(SceneKind kind);
 
 struct SceneConfig {
   SceneKind kind = SceneKind::kTable;
-  int num_objects = 8;    ///< as many of these as find a place
-  double touching = 0.4;  ///< share of the objects that are pushed against others [0, 1]
-  double stacked = 0.2;   ///< share that is put on top of others where that fits [0, 1]
+  std::optional<int> num_objects;  ///< as many of these as find a place; without: as usual for the kind
 };
 
 /// The world's origin is the middle of the table's surface or of the bin's floor, z up. The objects come
-/// last, in the order of their labels, each standing on the support or on another one, none inside another.
+/// last, in the order of their labels, each on the support or on another one, none inside another.
 [[nodiscard]] Scene build_scene(const SceneConfig& config, std::uint64_t seed);
-
-/// How many solids of a scene are objects.
-[[nodiscard]] int num_objects(const Scene& scene);
 
 }  // namespace graspd

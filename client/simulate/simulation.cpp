@@ -19,6 +19,20 @@ std::uint64_t seed_of(std::uint64_t seed, Purpose purpose, std::int64_t number) 
 
 }  // namespace
 
+double usual_elevation_deg(SceneKind kind) {
+  return in_bin(kind) ? 63 : 43;
+}
+
+Pinhole scaled(const Pinhole& camera, int width) {
+  const double scale = static_cast<double>(width) / camera.width;
+  return {width,
+          width * 3 / 4,
+          scale * camera.fx,
+          scale * camera.fy,
+          scale * (camera.cx + 0.5) - 0.5,
+          scale * (camera.cy + 0.5) - 0.5};
+}
+
 Eigen::Isometry3d Simulation::T_world_camera(std::int64_t k) const {
   const Eigen::Vector3d middle(0, 0, 0.03);
   // Azimuth 0 stands at the long side of the table, where a robot would.

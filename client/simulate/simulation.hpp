@@ -23,6 +23,12 @@ struct SimulationConfig {
   double orbit_rad_per_frame = 0;  ///< the camera's own motion
 };
 
+/// Where a camera usually looks from at such a scene, above the horizon [degrees]: into a bin more steeply.
+[[nodiscard]] double usual_elevation_deg(SceneKind kind);
+
+/// The same view in another resolution; the height is 3/4 of the width.
+[[nodiscard]] Pinhole scaled(const Pinhole& camera, int width);
+
 /// Frame k depends on the configuration and k alone, to the bit.
 class Simulation {
  public:
@@ -32,6 +38,8 @@ class Simulation {
 
   /// Of the last frame.
   [[nodiscard]] const Scene& scene() const { return scene_; }
+  /// The last frame without the sensor's noise.
+  [[nodiscard]] const DepthFrame& ideal() const { return ideal_; }
   [[nodiscard]] Eigen::Isometry3d T_world_camera(std::int64_t k) const;
 
  private:
