@@ -15,9 +15,9 @@ namespace {
 
 constexpr std::size_t kMinPoints = 12;
 constexpr std::size_t kMostPoints = 160;  // a spread sample says the same
-constexpr float kScale = 0.0015f;         // of the weights [m]
-constexpr float kNear = 0.0025f;          // a point that belongs to the circle [m]
-constexpr float kMinNearShare = 0.9f;
+constexpr float kScale = 0.002f;          // of the weights [m]
+constexpr float kNear = 0.0035f;          // a point that belongs to the circle [m]
+constexpr float kMinNearShare = 0.85f;
 constexpr int kSectors = 36;
 constexpr int kMinSectors = 6;
 

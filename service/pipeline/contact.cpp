@@ -56,6 +56,7 @@ Eigen::Vector3f fit_profile(const std::vector<FacePoint>& face, float span) {
 
 struct EndPoints {
   int near = 0, facing = 0;
+  Eigen::Vector3f facing_sum = Eigen::Vector3f::Zero();  // of the normals
   std::vector<FacePoint> face;
 };
 
@@ -70,7 +71,10 @@ EndPoints collect_end(const ContactInput& in, float side, float end_m, float min
     if (n.isZero()) continue;
     if (inwards <= kEndZone) {
       ++out.near;
-      out.facing += jaw.dot(n) >= in.min_facing_cosine ? 1 : 0;
+      if (jaw.dot(n) >= in.min_facing_cosine) {
+        ++out.facing;
+        out.facing_sum += n;
+      }
     }
     if (-approach.dot(n) >= min_upright) out.face.push_back({inwards, in.local.z[k]});
   }
@@ -130,8 +134,8 @@ Contact edge_contact(const ContactInput& in, float side, float end_m, float hidd
   // the end.
   const float at_end = std::atan(-c[1]), inner = std::atan(-c[1] - 2 * c[2] * span);
   const float middle = std::atan(-c[1] - c[2] * span);
-  if (ends_by_occlusion(in, side, end_m, c[0])) return {ContactKind::kNone, end_m};
-  if (at_end < -kMaxRise) return {ContactKind::kNone, end_m};
+  if (ends_by_occlusion(in, side, end_m, c[0])) return {ContactKind::kNone, end_m, {}};
+  if (at_end < -kMaxRise) return {ContactKind::kNone, end_m, {}};
   const std::optional<float> round_end =
       round_reach(in, side, end_m, turning_reach(side, end_m, at_end, inner, middle, span));
   const bool no_wedge = std::abs(0.5f * (at_end + inner)) <= kMaxWedge;
@@ -141,7 +145,7 @@ Contact edge_contact(const ContactInput& in, float side, float end_m, float hidd
   const float bulge = round_end ? std::min(kMaxUnseenBulge, side * (*round_end - end_m)) : 0;
   const float free_end = end_m + side * (in.circle ? 1.0f : 0.5f) * bulge;
   if (hidden_share <= kSeenFree) return {no_wedge ? ContactKind::kFreeEdge : ContactKind::kNone, free_end};
-  if (hidden_share < kHidden && !no_wedge) return {ContactKind::kNone, end_m};
+  if (hidden_share < kHidden && !no_wedge) return {ContactKind::kNone, end_m, {}};
   if (round_end) return {slips_off(in) ? ContactKind::kNone : ContactKind::kCurvedEdge, *round_end};
   const float lean = std::max(0.0f, (in.depth_m - c[0]) * std::tan(-middle));
   return {std::abs(middle) <= kMaxFlatTilt ? ContactKind::kFlatEdge : ContactKind::kNone,
@@ -150,14 +154,35 @@ Contact edge_contact(const ContactInput& in, float side, float end_m, float hidd
 
 }  // namespace
 
+std::optional<Eigen::Vector3f> thin_axis(const ContactInput& in, const std::array<float, 2>& hidden_share) {
+  constexpr float kMaxThickness = 0.016f, kMinDepth = 0.010f, kMinCosine = 0.85f;
+  if (in.extent_m > kMaxThickness || std::max(hidden_share[0], hidden_share[1]) > kSeenFree)
+    return std::nullopt;
+  // f = c0 + c1 a + c2 z through the sheet's points; too shallow a part does not tell how it leans.
+  Eigen::Matrix3f A = Eigen::Matrix3f::Identity() * 1e-9f;
+  Eigen::Vector3f b = Eigen::Vector3f::Zero();
+  float min_z = in.depth_m, max_z = in.top_m;
+  for (const std::uint32_t k : in.between) {
+    const Eigen::Vector3f row(1, in.local.a[k], in.local.z[k]);
+    A += row * row.transpose();
+    b += in.local.f[k] * row;
+    min_z = std::min(min_z, in.local.z[k]);
+    max_z = std::max(max_z, in.local.z[k]);
+  }
+  const Eigen::Vector3f c = A.ldlt().solve(b);
+  const Eigen::Vector3f axis(-c[1], 1, max_z - min_z > kMinDepth ? -c[2] : 0.0f);
+  if (axis.normalized().y() < kMinCosine) return std::nullopt;
+  return axis.normalized();
+}
+
 Contact find_contact(const ContactInput& in, float side, float end_m, float hidden_share) {
   const EndPoints end = collect_end(in, side, end_m, hidden_share <= kSeenFree ? 0.5f : 0.7f);
-  if (end.near < 2) return {ContactKind::kNone, end_m};
+  if (end.near < 2) return {ContactKind::kNone, end_m, {}};
   if (static_cast<float>(end.facing) >= kWallShare * static_cast<float>(end.near))
-    return {ContactKind::kWall, end_m};
+    return {ContactKind::kWall, end_m, in.rotation.transpose() * end.facing_sum.normalized()};
   const Eigen::Vector3f to_sensor = (in.scene.cloud.viewpoint - in.position).normalized();
   if (side * in.rotation.col(1).dot(to_sensor) > kCameraSide || too_small(in, end.face))
-    return {ContactKind::kNone, end_m};
+    return {ContactKind::kNone, end_m, {}};
   return edge_contact(in, side, end_m, hidden_share, end.face);
 }
 

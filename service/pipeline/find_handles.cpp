@@ -22,7 +22,33 @@ constexpr int kPointTolerance = 4;
 
 using Results = std::vector<CheckResult>;
 
-/// outlines: to refuse at little cost what is much too wide; may be null.
+/// The same place with the closing axis that the check found to meet the object squarely.
+Candidate squared(const Candidate& candidate, const CheckResult& result) {
+  Candidate better = candidate;
+  const Eigen::Vector3f y = result.squared_axis;
+  const Eigen::Vector3f x = result.handle.rotation.col(0);
+  better.position = result.handle.position;
+  better.rotation.col(1) = y;
+  better.rotation.col(0) = (x - x.dot(y) * y).normalized();
+  better.rotation.col(2) = better.rotation.col(0).cross(y);
+  return better;
+}
+
+/// Checks, and once more with the jaws square to the object where they were not; the better one counts.
+CheckResult check_squarely(const SceneView& scene, const Gripper& gripper, const HandleCheckConfig& config,
+                           const Candidate& candidate, CheckBuffers& buffers) {
+  constexpr float kSquareCosine = 0.9986f;  // 3 degrees
+  CheckResult result = check_candidate(scene, gripper, config, candidate, buffers);
+  for (int round = 0; round < 2 && result.failure == Failure::kNone; ++round) {
+    if (result.squared_axis.dot(result.handle.rotation.col(1)) > kSquareCosine) break;
+    const CheckResult better = check_candidate(scene, gripper, config, squared(candidate, result), buffers);
+    if (better.failure != Failure::kNone || score(better.margins) <= score(result.margins)) break;
+    result = better;
+  }
+  return result;
+}
+
+/// outlines: a first look, which refuses at little cost what is much too wide; null: the thorough one.
 Results check_all(const SceneView& scene, const Gripper& gripper, const HandleCheckConfig& config,
                   const std::vector<Candidate>& candidates, const ObjectOutlines* outlines) {
   Results results(candidates.size());
@@ -34,7 +60,8 @@ Results check_all(const SceneView& scene, const Gripper& gripper, const HandleCh
       if (outlines && outlines->clearly_too_wide(candidate, gripper))
         results[i].failure = Failure::kTooWide;
       else
-        results[i] = check_candidate(scene, gripper, config, candidate, own);
+        results[i] = outlines ? check_candidate(scene, gripper, config, candidate, own)
+                              : check_squarely(scene, gripper, config, candidate, own);
     }
   });
   return results;
@@ -48,14 +75,13 @@ std::vector<std::int32_t> spread_to_points(const std::vector<std::int32_t>& of_v
 }
 
 /// Off the middle the object turns between the jaws: the margin falls off over 6 cm along the major axis.
-Handle scored(const CheckResult& result, const Eigen::Vector3f& center) {
+RankedHandle scored(const CheckResult& result, const Eigen::Vector3f& center, int object) {
   constexpr float kFalloff = 0.06f;
-  HandleMargins margins = result.margins;
+  RankedHandle ranked{result.handle, object, result.margins};
   const float off = result.handle.rotation.col(0).dot(center - result.handle.position) / kFalloff;
-  margins.central = std::exp(-off * off);
-  Handle handle = result.handle;
-  handle.score = score(margins);
-  return handle;
+  ranked.margins.central = std::exp(-off * off);
+  ranked.handle.score = score(ranked.margins);
+  return ranked;
 }
 
 std::vector<SegmentReport> start_reports(const Surfaces& surfaces) {
@@ -170,7 +196,7 @@ class GuessSearch {
         count(left[k], fine[k].failure, out);
         if (fine[k].failure != Failure::kNone) continue;
         const auto object = static_cast<std::size_t>(left[k].object);
-        out.handles.push_back({scored(fine[k], objects_.center[object]), first_id + left[k].object});
+        out.handles.push_back(scored(fine[k], objects_.center[object], first_id + left[k].object));
         ++handles_of_object[object];
       }
     }

@@ -52,6 +52,7 @@ class Check {
   [[nodiscard]] float finger_hidden_share(int side, bool by_others) const;
   [[nodiscard]] float area_per_point() const;
   void set_width_from(const Contact& low, const Contact& high);
+  [[nodiscard]] Eigen::Vector3f squared_axis(const Contact& low, const Contact& high, bool round) const;
 
   const SceneView& scene_;
   const Gripper& gripper_;
@@ -62,8 +63,10 @@ class Check {
   std::vector<std::uint32_t>& between_;
   Handle handle_;
   HandleMargins margins_;
+  Eigen::Vector3f squared_ = Eigen::Vector3f::Zero();  // closing axis that meets the object squarely
   float end_[2] = {0, 0};  // of the object's points between the jaws, along f from the handle's position
   float top_ = 0;          // their smallest depth
+  float side_slope_ = 0;   // of the object's sides against the major axis, df / da, mean of both
 };
 
 Failure Check::check_volumes() {
@@ -90,7 +93,7 @@ Failure Check::check_volumes() {
                                  {half_e, half_width, z1}, scene_.tolerance);
   };
   if (blocked(half_hand, hand_top, palm_top)) return Failure::kPalm;
-  return blocked(0.5f * g.aperture_m, hand_top - config_.way_m, hand_top) ? Failure::kWay : Failure::kNone;
+  return blocked(half_hand, hand_top - config_.way_m, hand_top) ? Failure::kWay : Failure::kNone;
 }
 
 Failure Check::check_support() const {
@@ -149,6 +152,7 @@ Failure Check::check_silhouettes() {
     high[slab] = std::max(high[slab], local_.f[k]);
   }
   const float limit = std::tan(radians(config_.max_silhouette_angle_deg));
+  side_slope_ = 0;
   for (const auto& side : {low, high}) {
     float n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
     for (int i = 0; i < kSlabs; ++i) {
@@ -162,9 +166,10 @@ Failure Check::check_silhouettes() {
       sxy += x * y;
     }
     if (n < 4) return Failure::kSilhouettes;
-    const float slope = std::abs(n * sxy - sx * sy) / (n * sxx - sx * sx);
-    if (slope > limit) return Failure::kSilhouettes;
-    margins_.silhouettes = std::min(margins_.silhouettes, 1 - slope / limit);
+    const float slope = (n * sxy - sx * sy) / (n * sxx - sx * sx);
+    if (std::abs(slope) > limit) return Failure::kSilhouettes;
+    margins_.silhouettes = std::min(margins_.silhouettes, 1 - std::abs(slope) / limit);
+    side_slope_ += 0.5f * slope;
   }
   return Failure::kNone;
 }
@@ -227,6 +232,16 @@ void Check::set_width_from(const Contact& low, const Contact& high) {
   end_[1] -= center;
 }
 
+/// The closing axis, in gripper coordinates, that meets the object squarely: along the normals of the walls
+/// that are seen, else across its silhouettes. Round objects are turned about the approach only: the seen
+/// part of their walls leans towards the sensor.
+Eigen::Vector3f Check::squared_axis(const Contact& low, const Contact& high, bool round) const {
+  Eigen::Vector3f axis = high.normal - low.normal;
+  if (axis.norm() < 0.5f) axis = {-side_slope_, 1, 0};
+  if (round) axis.z() = 0;
+  return axis.normalized();
+}
+
 Failure Check::check_contacts() {
   if (area_per_point() * static_cast<float>(between_.size()) < config_.min_contact_area_m2 ||
       gripper_.grasp_depth_m - top_ < config_.min_grip_depth_m)
@@ -247,10 +262,20 @@ Failure Check::check_contacts() {
                            area_per_point(),
                            radians(config_.max_wall_angle_deg),
                            fit_circle(buffers_.profile, kMaxRadius)};
-  const Contact low = find_contact(input, -1, end_[0], finger_hidden_share(0, false));
-  const Contact high = find_contact(input, 1, end_[1], finger_hidden_share(1, false));
-  if (low.kind == ContactKind::kNone || high.kind == ContactKind::kNone) return Failure::kContact;
+  const std::array<float, 2> hidden{finger_hidden_share(0, false), finger_hidden_share(1, false)};
+  Contact low{ContactKind::kThin, end_[0], {}}, high{ContactKind::kThin, end_[1], {}};
+  std::optional<Eigen::Vector3f> squared = thin_axis(input, hidden);
+  if (!squared) {
+    low = find_contact(input, -1, end_[0], hidden[0]);
+    high = find_contact(input, 1, end_[1], hidden[1]);
+    if (low.kind == ContactKind::kNone || high.kind == ContactKind::kNone) return Failure::kContact;
+    squared = squared_axis(low, high, input.circle.has_value());
+  }
   margins_.contact = {low.kind, high.kind};
+  squared_ = handle_.rotation * *squared;
+  const float off = std::acos(std::clamp(squared->y(), -1.0f, 1.0f)) / radians(config_.max_misalignment_deg);
+  if (off > 1) return Failure::kContact;
+  margins_.square = 1 - off;
   set_width_from(low, high);
   margins_.width = (gripper_.aperture_m - handle_.width_m) / (kAmpleRoom * gripper_.aperture_m);
   margins_.grip_depth = (gripper_.grasp_depth_m - top_) / gripper_.grasp_depth_m;
@@ -289,6 +314,7 @@ CheckResult Check::run(const PatchFit& fit) {
   if (!passes(check_unseen())) return result;
   result.handle = handle_;
   result.margins = margins_;
+  result.squared_axis = squared_;
   return result;
 }
 

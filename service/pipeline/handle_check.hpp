@@ -48,6 +48,7 @@ struct HandleCheckConfig {
   float max_silhouette_angle_deg = 30.0f;
   float max_wall_angle_deg = 25.0f;
   float max_facing_angle_deg = 35.0f;
+  float max_misalignment_deg = 40.0f;
   float max_hidden_share = 0.45f;
 
   template <class Self, class Visitor>
@@ -70,6 +71,8 @@ struct HandleCheckConfig {
       "by which the sides may widen towards the fingertips [degrees]");
     v("max_facing_angle_deg", self.max_facing_angle_deg, Range{0, 90},
       "between a wall's normal and the jaw [degrees]");
+    v("max_misalignment_deg", self.max_misalignment_deg, Range{0, 90},
+      "between the closing axis and what would meet the object's walls or sides squarely [degrees]");
     v("max_hidden_share", self.max_hidden_share, Range{0, 1},
       "share of a finger's volume that may be hidden, one finger excepted");
   }
@@ -87,6 +90,8 @@ struct CheckResult {
   Failure failure = Failure::kTooFewPoints;
   Handle handle;          ///< valid when failure is kNone; position and width fitted to the object
   HandleMargins margins;  ///< the same
+  /// The same: unit closing axis, in the cloud's frame, with which the jaws would meet the object squarely.
+  Eigen::Vector3f squared_axis = Eigen::Vector3f::Zero();
 };
 
 /// Working memory of a check, kept from call to call.

@@ -6,6 +6,7 @@
 
 #include "service/pipeline/config_fields.hpp"
 #include "service/pipeline/handle.hpp"
+#include "service/pipeline/handle_score.hpp"
 
 namespace graspd {
 
@@ -34,6 +35,7 @@ struct HandleRankingConfig {
 struct RankedHandle {
   Handle handle;
   int object = -1;
+  HandleMargins margins;  ///< that the score was made of
 };
 
 /// One for each distinct place, max_per_object for each object: its best, and then those that score best with

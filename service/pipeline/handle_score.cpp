@@ -18,6 +18,8 @@ float reliability(ContactKind kind) {
       return 0.95f;
     case ContactKind::kFlatEdge:
       return 0.90f;
+    case ContactKind::kThin:
+      return 0.95f;
     case ContactKind::kNone:
       return 0.0f;
   }
@@ -32,8 +34,8 @@ float term(float margin, float weight) {
 
 float score(const HandleMargins& m) {
   return reliability(m.contact[0]) * reliability(m.contact[1]) * term(m.width, 0.15f) *
-         term(m.grip_depth, 0.15f) * term(m.silhouettes, 0.10f) * term(m.walls, 0.10f) * term(m.seen, 0.10f) *
-         term(m.central, 0.15f);
+         term(m.grip_depth, 0.15f) * term(m.silhouettes, 0.10f) * term(m.walls, 0.10f) *
+         term(m.square, 0.10f) * term(m.seen, 0.10f) * term(m.central, 0.15f);
 }
 
 }  // namespace graspd

@@ -15,6 +15,7 @@ struct HandleMargins {
   float width = 1;        ///< room that the aperture leaves
   float grip_depth = 1;   ///< how deep the object reaches between the jaws
   float silhouettes = 1;  ///< how parallel the sides are to the major axis
+  float square = 1;       ///< how squarely the jaws meet walls or sides
   float walls = 1;        ///< how little they widen towards the fingertips
   float seen = 1;         ///< smaller of the two fingers' observed free shares
   float central = 1;      ///< how near the jaws are to the middle of the visible object
