@@ -124,7 +124,7 @@ std::vector<EvaluatedRun> evaluated_runs(const Options& o, const SourceConfig& s
     }
     return both;
   }
-  Run base{"graspd", gripper, source.detect, {o.half, o.unorganized}};
+  DetectionRun base{"graspd", gripper, source.detect, {o.half, o.unorganized}};
   if (o.voxel_mm > 0) set_voxel(base.detect, static_cast<float>(1e-3 * o.voxel_mm));
   if (const auto problem = base.detect.validate())
     throw ConfigError("--voxel: " + problem->key + ": " + problem->reason);
@@ -134,7 +134,7 @@ std::vector<EvaluatedRun> evaluated_runs(const Options& o, const SourceConfig& s
   else
     runs.push_back({base.name, gripper, LoggedOrDetected{base}});
   for (const std::string& group : o.variants)
-    for (const Run& run : variants(base, group)) runs.push_back({run.name, run.gripper, run});
+    for (const DetectionRun& run : variants(base, group)) runs.push_back({run.name, run.gripper, run});
   return runs;
 }
 

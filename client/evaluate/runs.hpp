@@ -21,7 +21,7 @@ struct CloudChange {
 
 [[nodiscard]] PointCloud changed(const PointCloud& cloud, const CloudChange& change);
 
-struct Run {
+struct DetectionRun {
   std::string name;
   Gripper gripper;
   DetectConfig detect;
@@ -40,6 +40,6 @@ inline constexpr std::array<std::string_view, 5> kVariantGroups{"thresholds", "p
                                                                 "grippers"};
 
 /// The runs of a group, named; base itself is not among them.
-[[nodiscard]] std::vector<Run> variants(const Run& base, std::string_view group);
+[[nodiscard]] std::vector<DetectionRun> variants(const DetectionRun& base, std::string_view group);
 
 }  // namespace graspd

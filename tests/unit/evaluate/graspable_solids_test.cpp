@@ -6,7 +6,7 @@
 #include <tbb/task_arena.h>
 
 #include "client/simulate/scene_builder.hpp"
-#include "tests/unit/client/solid_scenes.hpp"
+#include "tests/unit/evaluate/solid_scenes.hpp"
 
 namespace graspd {
 namespace {

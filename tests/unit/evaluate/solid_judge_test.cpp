@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "client/simulate/rng.hpp"
-#include "tests/unit/client/solid_scenes.hpp"
+#include "tests/unit/evaluate/solid_scenes.hpp"
 
 namespace graspd {
 namespace {
