@@ -49,6 +49,7 @@ void add_handle_options(CLI::App& app, Options& o) {
                                  "grade the handles in this CSV file of graspd-detect or graspd-listen");
   auto* compare = app.add_option("--compare", o.compare, "grade two such files and show where they differ")
                       ->expected(2)
+                      ->allow_extra_args(false)
                       ->excludes(handles);
   app.add_flag("--detect", o.ignore_logged, "logs: detect here, also where the log has handles")
       ->excludes(handles)
@@ -59,6 +60,7 @@ void add_handle_options(CLI::App& app, Options& o) {
                      "detect also with other settings: thresholds, paper, voxels, clouds, "
                      "grippers (several: with commas)")
           ->delimiter(',')
+          ->allow_extra_args(false)
           ->check(CLI::IsMember(std::vector<std::string>(kVariantGroups.begin(), kVariantGroups.end()))));
   detection.push_back(app.add_option("--voxel", o.voxel_mm, "detect with voxels of this size [mm]")
                           ->check(CLI::Range(0.5, 100.0)));
@@ -83,7 +85,8 @@ void add_options(CLI::App& app, Options& o) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   app.add_option("--categories", o.categories, "CSV file frame,category: figures for each category too");
-  app.add_option("--category", o.category_patterns, "NAME=PATTERN: category of the frames whose names match");
+  app.add_option("--category", o.category_patterns, "NAME=PATTERN: category of the frames whose names match")
+      ->allow_extra_args(false);
   const std::map<std::string, TableFormat> formats{
       {"md", TableFormat::kMarkdown}, {"csv", TableFormat::kCsv}, {"json", TableFormat::kJson}};
   app.add_option("-f,--format", o.format, "md, csv or json")->transform(CLI::CheckedTransformer(formats));
