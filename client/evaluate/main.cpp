@@ -145,7 +145,9 @@ std::vector<Table> tables_of(const Options& o, const Evaluator& evaluator) {
   const auto& runs = evaluator.runs();
   const auto& frames = runs.front().frames;
   std::vector<Table> tables;
-  if (!o.summary) tables = {frame_table(frames), object_table(frames)};
+  if (!o.summary && o.compare.empty()) tables = {frame_table(frames), object_table(frames)};
+  if (!o.summary && !o.compare.empty())
+    tables = {frame_table_side_by_side(runs), object_table_side_by_side(runs)};
   if (!figures_by_category(frames).empty()) tables.push_back(category_table(frames));
   tables.push_back(figures_table(runs));
   tables.push_back(failure_table(frames));

@@ -104,9 +104,8 @@ PointCloud changed(const PointCloud& cloud, const CloudChange& change) {
 }
 
 void set_voxel(DetectConfig& config, float leaf_m) {
-  const float reach = config.neighborhoods.radius_m / config.downsample.leaf_size_m;
   config.downsample.leaf_size_m = leaf_m;
-  config.neighborhoods.radius_m = std::max(config.neighborhoods.radius_m, reach * leaf_m);
+  config.neighborhoods.radius_m = std::clamp(config.neighborhoods.radius_m, 2 * leaf_m, 8 * leaf_m);
 }
 
 DetectConfig paper_settings(const DetectConfig& config) {

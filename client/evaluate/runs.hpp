@@ -28,7 +28,7 @@ struct DetectionRun {
   CloudChange change;
 };
 
-/// Voxels of another size; neighbourhoods keep their size in voxels where they would reach too few of them.
+/// Voxels of another size; neighbourhoods keep theirs within 2 to 8 voxels.
 void set_voxel(DetectConfig& config, float leaf_m);
 
 /// The paper to the letter: its thresholds, its bands alone, and of the checks d, the gaps g and the depth l.

@@ -75,6 +75,7 @@ TEST(Runs, NeighborhoodsReachTheNextVoxels) {
     set_voxel(config, leaf);
     EXPECT_EQ(config.downsample.leaf_size_m, leaf);
     EXPECT_GE(config.neighborhoods.radius_m, 1.5f * leaf);
+    EXPECT_FALSE(config.validate()) << leaf;
   }
 }
 
