@@ -13,7 +13,7 @@
 namespace graspd {
 namespace {
 
-std::vector<Handle> detected(const Run& run, const PointCloud& cloud) {
+std::vector<Handle> detected(const DetectionRun& run, const PointCloud& cloud) {
   return detect_handles(changed(cloud, run.change), run.gripper, run.detect).handles;
 }
 
@@ -38,7 +38,8 @@ std::vector<Handle> Evaluator::in_cloud_frame(std::vector<Handle> handles) const
 }
 
 std::vector<Handle> Evaluator::handles_of(const EvaluatedRun& run, const LabelledFrame& frame) {
-  if (const auto* detection = std::get_if<Run>(&run.handles)) return detected(*detection, frame.cloud.cloud);
+  if (const auto* detection = std::get_if<DetectionRun>(&run.handles))
+    return detected(*detection, frame.cloud.cloud);
   if (const auto* either = std::get_if<LoggedOrDetected>(&run.handles)) {
     if (frame.logged_handles) return in_cloud_frame(*frame.logged_handles);
     return detected(either->run, frame.cloud.cloud);

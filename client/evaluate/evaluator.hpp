@@ -20,11 +20,11 @@ namespace graspd {
 
 /// Handles from the frame's log where it has some, else from detection here.
 struct LoggedOrDetected {
-  Run run;
+  DetectionRun run;
 };
 
 /// Where the handles of a run come from; a file's are best first in each frame.
-using HandleSource = std::variant<Run, LoggedOrDetected, HandleFile>;
+using HandleSource = std::variant<DetectionRun, LoggedOrDetected, HandleFile>;
 
 struct EvaluatedRun {
   std::string name;

@@ -21,8 +21,9 @@ constexpr float kMaxSideAngle_deg = 35;  // of a silhouette to the major axis
 constexpr float kMaxWallAngle_deg = 30;  // of a wall to the approach, widening
 constexpr float kSideSlice = 0.004f;
 constexpr float kWallSlice = 0.003f;
-constexpr float kTipZone = 0.015f;  // above the fingertips, where the jaws press
-constexpr float kNoise = 0.001f;    // of an extent over a slice
+constexpr float kMaxOffMiddle = 0.002f;  // of the object from the middle of the fingers, along the major axis
+constexpr float kTipZone = 0.015f;       // above the fingertips, where the jaws press
+constexpr float kNoise = 0.001f;         // of an extent over a slice
 constexpr std::size_t kMinSlicePoints = 3;
 
 constexpr float kFacing = 0.8f;        // cosine of 37 degrees
@@ -159,6 +160,9 @@ bool round_face_clear(const GripShape& shape, int side) {
 }  // namespace
 
 bool sides_hold(const GripShape& shape) {
+  const auto [first, last] = std::minmax_element(shape.between.begin(), shape.between.end(),
+                                                 [](const auto& a, const auto& b) { return a.x() < b.x(); });
+  if (first->x() > kMaxOffMiddle || last->x() < -kMaxOffMiddle) return false;
   const float from = -shape.geometry.half_thickness();
   const auto slices = static_cast<std::size_t>(std::ceil(-2 * from / kSideSlice));
   for (const int side : {-1, 1}) {

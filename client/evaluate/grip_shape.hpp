@@ -21,7 +21,8 @@ struct GripShape {
 /// Margin of GripShape::around [m].
 inline constexpr float kShapeMargin = 0.010f;
 
-/// The silhouettes run so much along the major axis that the jaws do not slip.
+/// The object is in the middle of the fingers, and its silhouettes run so much along the major axis that the
+/// jaws do not slip.
 [[nodiscard]] bool sides_hold(const GripShape& shape);
 
 /// Towards the fingertips the object does not widen so much that the jaws slide off.

@@ -65,6 +65,7 @@ Handle handle_of(const CsvFile& file, std::size_t row) {
   handle.position = {file.number(row, "px"), file.number(row, "py"), file.number(row, "pz")};
   const Eigen::Quaternionf q(file.number(row, "qw"), file.number(row, "qx"), file.number(row, "qy"),
                              file.number(row, "qz"));
+  if (!(q.norm() > 1e-3f)) file.fail(row, "qw, qx, qy, qz are no rotation");
   handle.rotation = q.normalized().toRotationMatrix();
   handle.width_m = file.number(row, "width");
   if (file.has("score")) handle.score = file.number(row, "score");

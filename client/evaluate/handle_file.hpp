@@ -33,10 +33,10 @@ class CsvFile {
   /// Throw CsvError where the cell is no such number.
   [[nodiscard]] float number(std::size_t row, const std::string& column) const;
   [[nodiscard]] std::int64_t integer(std::size_t row, const std::string& column) const;
-
- private:
+  /// Throws CsvError that names the row's line.
   [[noreturn]] void fail(std::size_t row, const std::string& reason) const;
 
+ private:
   std::filesystem::path path_;
   std::map<std::string, std::size_t> columns_;
   std::vector<std::vector<std::string>> rows_;

@@ -49,6 +49,7 @@ void add_handle_options(CLI::App& app, Options& o) {
                                  "grade the handles in this CSV file of graspd-detect or graspd-listen");
   auto* compare = app.add_option("--compare", o.compare, "grade two such files and show where they differ")
                       ->expected(2)
+                      ->allow_extra_args(false)
                       ->excludes(handles);
   app.add_flag("--detect", o.ignore_logged, "logs: detect here, also where the log has handles")
       ->excludes(handles)
@@ -59,6 +60,7 @@ void add_handle_options(CLI::App& app, Options& o) {
                      "detect also with other settings: thresholds, paper, voxels, clouds, "
                      "grippers (several: with commas)")
           ->delimiter(',')
+          ->allow_extra_args(false)
           ->check(CLI::IsMember(std::vector<std::string>(kVariantGroups.begin(), kVariantGroups.end()))));
   detection.push_back(app.add_option("--voxel", o.voxel_mm, "detect with voxels of this size [mm]")
                           ->check(CLI::Range(0.5, 100.0)));
@@ -83,7 +85,8 @@ void add_options(CLI::App& app, Options& o) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   app.add_option("--categories", o.categories, "CSV file frame,category: figures for each category too");
-  app.add_option("--category", o.category_patterns, "NAME=PATTERN: category of the frames whose names match");
+  app.add_option("--category", o.category_patterns, "NAME=PATTERN: category of the frames whose names match")
+      ->allow_extra_args(false);
   const std::map<std::string, TableFormat> formats{
       {"md", TableFormat::kMarkdown}, {"csv", TableFormat::kCsv}, {"json", TableFormat::kJson}};
   app.add_option("-f,--format", o.format, "md, csv or json")->transform(CLI::CheckedTransformer(formats));
@@ -124,7 +127,7 @@ std::vector<EvaluatedRun> evaluated_runs(const Options& o, const SourceConfig& s
     }
     return both;
   }
-  Run base{"graspd", gripper, source.detect, {o.half, o.unorganized}};
+  DetectionRun base{"graspd", gripper, source.detect, {o.half, o.unorganized}};
   if (o.voxel_mm > 0) set_voxel(base.detect, static_cast<float>(1e-3 * o.voxel_mm));
   if (const auto problem = base.detect.validate())
     throw ConfigError("--voxel: " + problem->key + ": " + problem->reason);
@@ -134,7 +137,7 @@ std::vector<EvaluatedRun> evaluated_runs(const Options& o, const SourceConfig& s
   else
     runs.push_back({base.name, gripper, LoggedOrDetected{base}});
   for (const std::string& group : o.variants)
-    for (const Run& run : variants(base, group)) runs.push_back({run.name, run.gripper, run});
+    for (const DetectionRun& run : variants(base, group)) runs.push_back({run.name, run.gripper, run});
   return runs;
 }
 
@@ -142,7 +145,9 @@ std::vector<Table> tables_of(const Options& o, const Evaluator& evaluator) {
   const auto& runs = evaluator.runs();
   const auto& frames = runs.front().frames;
   std::vector<Table> tables;
-  if (!o.summary) tables = {frame_table(frames), object_table(frames)};
+  if (!o.summary && o.compare.empty()) tables = {frame_table(frames), object_table(frames)};
+  if (!o.summary && !o.compare.empty())
+    tables = {frame_table_side_by_side(runs), object_table_side_by_side(runs)};
   if (!figures_by_category(frames).empty()) tables.push_back(category_table(frames));
   tables.push_back(figures_table(runs));
   tables.push_back(failure_table(frames));

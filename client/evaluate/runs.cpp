@@ -21,11 +21,11 @@ std::vector<std::size_t> kept_points(const PointCloud& cloud, bool half) {
   return kept;
 }
 
-void add_thresholds(const Run& base, std::vector<Run>& runs) {
+void add_thresholds(const DetectionRun& base, std::vector<DetectionRun>& runs) {
   const SmoothnessConfig both = base.detect.smoothness;
   const float middle = 0.5f * (both.theta_low_deg + both.theta_high_deg);
   for (const float theta : {both.theta_low_deg, middle, both.theta_high_deg}) {
-    Run run = base;
+    DetectionRun run = base;
     run.detect.smoothness.theta_low_deg = run.detect.smoothness.theta_high_deg = theta;
     run.name = printed("single threshold %g deg", double{theta});
     runs.push_back(run);
@@ -33,8 +33,8 @@ void add_thresholds(const Run& base, std::vector<Run>& runs) {
 }
 
 /// From the paper's settings towards the configured ones, an idea at a time.
-void add_paper(const Run& base, std::vector<Run>& runs) {
-  Run run = base;
+void add_paper(const DetectionRun& base, std::vector<DetectionRun>& runs) {
+  DetectionRun run = base;
   run.detect = paper_settings(base.detect);
   run.name = "paper, 12/30 deg, k 0.4";
   runs.push_back(run);
@@ -54,17 +54,17 @@ void add_paper(const Run& base, std::vector<Run>& runs) {
   runs.push_back(run);
 }
 
-void add_voxels(const Run& base, std::vector<Run>& runs) {
+void add_voxels(const DetectionRun& base, std::vector<DetectionRun>& runs) {
   for (const float leaf : {0.003f, 0.0045f}) {
-    Run run = base;
+    DetectionRun run = base;
     set_voxel(run.detect, leaf);
     run.name = printed("%.1f mm voxels", 1e3 * double{leaf});
     runs.push_back(run);
   }
 }
 
-void add_clouds(const Run& base, std::vector<Run>& runs) {
-  Run run = base;
+void add_clouds(const DetectionRun& base, std::vector<DetectionRun>& runs) {
+  DetectionRun run = base;
   run.change = {false, true};
   run.name = "unorganized";
   runs.push_back(run);
@@ -76,9 +76,9 @@ void add_clouds(const Run& base, std::vector<Run>& runs) {
   runs.push_back(run);
 }
 
-void add_grippers(const Run& base, std::vector<Run>& runs) {
+void add_grippers(const DetectionRun& base, std::vector<DetectionRun>& runs) {
   for (const float aperture : {0.040f, 0.060f, 0.080f, 0.110f, 0.140f}) {
-    Run run = base;
+    DetectionRun run = base;
     run.gripper.aperture_m = aperture;
     run.name = printed("d = %.0f mm", 1e3 * double{aperture});
     runs.push_back(run);
@@ -104,9 +104,8 @@ PointCloud changed(const PointCloud& cloud, const CloudChange& change) {
 }
 
 void set_voxel(DetectConfig& config, float leaf_m) {
-  const float reach = config.neighborhoods.radius_m / config.downsample.leaf_size_m;
   config.downsample.leaf_size_m = leaf_m;
-  config.neighborhoods.radius_m = std::max(config.neighborhoods.radius_m, reach * leaf_m);
+  config.neighborhoods.radius_m = std::clamp(config.neighborhoods.radius_m, 2 * leaf_m, 8 * leaf_m);
 }
 
 DetectConfig paper_settings(const DetectConfig& config) {
@@ -136,8 +135,8 @@ DetectConfig paper_settings(const DetectConfig& config) {
   return paper;
 }
 
-std::vector<Run> variants(const Run& base, std::string_view group) {
-  std::vector<Run> runs;
+std::vector<DetectionRun> variants(const DetectionRun& base, std::string_view group) {
+  std::vector<DetectionRun> runs;
   if (group == "thresholds") add_thresholds(base, runs);
   if (group == "paper") add_paper(base, runs);
   if (group == "voxels") add_voxels(base, runs);

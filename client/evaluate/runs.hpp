@@ -21,14 +21,14 @@ struct CloudChange {
 
 [[nodiscard]] PointCloud changed(const PointCloud& cloud, const CloudChange& change);
 
-struct Run {
+struct DetectionRun {
   std::string name;
   Gripper gripper;
   DetectConfig detect;
   CloudChange change;
 };
 
-/// Voxels of another size; neighbourhoods keep their size in voxels where they would reach too few of them.
+/// Voxels of another size; neighbourhoods keep theirs within 2 to 8 voxels.
 void set_voxel(DetectConfig& config, float leaf_m);
 
 /// The paper to the letter: its thresholds, its bands alone, and of the checks d, the gaps g and the depth l.
@@ -40,6 +40,6 @@ inline constexpr std::array<std::string_view, 5> kVariantGroups{"thresholds", "p
                                                                 "grippers"};
 
 /// The runs of a group, named; base itself is not among them.
-[[nodiscard]] std::vector<Run> variants(const Run& base, std::string_view group);
+[[nodiscard]] std::vector<DetectionRun> variants(const DetectionRun& base, std::string_view group);
 
 }  // namespace graspd

@@ -11,7 +11,7 @@
 namespace graspd {
 namespace {
 
-HandlesOfFrame detected(const Run& run) {
+HandlesOfFrame detected(const DetectionRun& run) {
   return [&run](const TrueFrame& truth) {
     const PointCloud cloud = changed(to_cloud(truth.measured).cloud, run.change);
     return detect_handles(cloud, run.gripper, run.detect).handles;
@@ -33,7 +33,7 @@ HandlesOfFrame looked_up(const HandleFile& file, const Eigen::Isometry3f& T_clou
 HandlesOfFrame handle_source(const EvaluatedRun& run, const Eigen::Isometry3f& T_cloud_handles) {
   if (const auto* file = std::get_if<HandleFile>(&run.handles)) return looked_up(*file, T_cloud_handles);
   if (const auto* either = std::get_if<LoggedOrDetected>(&run.handles)) return detected(either->run);
-  return detected(std::get<Run>(run.handles));
+  return detected(std::get<DetectionRun>(run.handles));
 }
 
 std::vector<JudgedScene> judge_scenes(const SimulationConfig& simulation, const SceneRange& range,

@@ -241,12 +241,15 @@ std::string SolidVerdict::text(const Scene& scene) const {
     return i == kNoSolid ? std::string("-")
                          : printed("%s %u", scene.solids[i].kind.c_str(), scene.solids[i].label);
   };
-  return std::string(name(failure)) + "; object " + kind(solid) + "; blocked by " + kind(blocker) +
-         printed(
-             "; width %.1f mm, off centre %.1f mm, depth %.1f mm, contacts %.0f and %.0f degrees, "
-             "%.0f and %.0f mm2, line %.0f degrees",
-             1e3 * width_m, 1e3 * off_center_m, 1e3 * depth_m, contact_deg[0], contact_deg[1],
-             1e6 * contact_m2[0], 1e6 * contact_m2[1], line_deg);
+  std::string line = std::string(name(failure)) + "; object " + kind(solid) + "; blocked by " + kind(blocker);
+  if (width_m > 0)
+    line += printed(
+        "; width %.1f mm, off centre %.1f mm, depth %.1f mm, contacts %.0f and %.0f degrees, %.0f and %.0f "
+        "mm2, "
+        "line %.0f degrees",
+        1e3 * width_m, 1e3 * off_center_m, 1e3 * depth_m, contact_deg[0], contact_deg[1], 1e6 * contact_m2[0],
+        1e6 * contact_m2[1], line_deg);
+  return line;
 }
 
 SolidJudge::SolidJudge(const Scene& scene, const Gripper& gripper, const SolidJudgeConfig& config)

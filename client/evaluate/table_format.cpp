@@ -26,7 +26,7 @@ struct ForReading {
   }
   std::string operator()(std::int64_t value) const { return std::to_string(value); }
   std::string operator()(double value) const {
-    return printed(std::abs(value) < 10 ? "%.3f" : "%.1f", value);
+    return printed(std::abs(value) < 1000 ? "%.3g" : "%.0f", value);
   }
   std::string operator()(Percentage share) const {
     return share.value ? printed("%.1f %%", 100 * *share.value) : "-";

@@ -104,6 +104,40 @@ Table object_table(std::span<const JudgedFrame> frames) {
   return table;
 }
 
+Table frame_table_side_by_side(std::span<const NamedRun> runs) {
+  Table table{"frames", "Frames", {"frame", "objects"}, {}};
+  for (const NamedRun& run : runs)
+    for (const char* column : {" handles", " found", " recall"}) table.columns.push_back(run.name + column);
+  const std::size_t num_frames = runs.empty() ? 0 : runs.front().frames.size();
+  const auto add = [&](const std::string& name, const std::vector<Figures>& of_runs) {
+    Row row{name, of_runs.empty() ? Cell() : count(of_runs.front().objects)};
+    for (const Figures& f : of_runs)
+      row.insert(row.end(), {count(f.handles), count(f.objects_found), Percentage{f.recall()}});
+    table.rows.push_back(row);
+  };
+  std::vector<Figures> of_runs(runs.size());
+  for (std::size_t i = 0; i < num_frames; ++i) {
+    for (std::size_t r = 0; r < runs.size(); ++r) of_runs[r] = figures(runs[r].frames[i]);
+    add(runs.front().frames[i].name, of_runs);
+  }
+  for (std::size_t r = 0; r < runs.size(); ++r) of_runs[r] = figures(runs[r].frames);
+  add("total", of_runs);
+  return table;
+}
+
+Table object_table_side_by_side(std::span<const NamedRun> runs) {
+  Table table{"objects", "Objects", {"object", "frames"}, {}};
+  for (const NamedRun& run : runs) {
+    table.columns.push_back(run.name + " frames with a valid handle");
+    const Table one = object_table(run.frames);
+    for (std::size_t i = 0; i < one.rows.size(); ++i) {
+      if (table.rows.size() == i) table.rows.push_back({one.rows[i][0], one.rows[i][1]});
+      table.rows[i].push_back(one.rows[i][2]);
+    }
+  }
+  return table;
+}
+
 Table figures_table(std::span<const NamedRun> runs) {
   Table table = table_of_figures("figures", "Figures", "run");
   for (const NamedRun& run : runs) table.rows.push_back(figure_row(run.name, figures(run.frames)));

@@ -50,6 +50,11 @@ struct NamedRun {
 /// has a valid handle, then the total.
 [[nodiscard]] Table object_table(std::span<const JudgedFrame> frames);
 
+/// The same two with a run beside the other, as the paper's tables show two methods. All runs are over the
+/// same frames.
+[[nodiscard]] Table frame_table_side_by_side(std::span<const NamedRun> runs);
+[[nodiscard]] Table object_table_side_by_side(std::span<const NamedRun> runs);
+
 /// All measures, a column each, one row a run.
 [[nodiscard]] Table figures_table(std::span<const NamedRun> runs);
 

@@ -6,11 +6,13 @@ import re
 from harness import GraspdTest, run_tests
 
 PROGRAMS = ["graspd", "graspd-detect", "graspd-publish", "graspd-simulate", "graspd-listen", "graspd-log",
-            "graspd-status"]
+            "graspd-status", "graspd-evaluate"]
+WITHOUT_LCM = ["graspd-detect", "graspd-evaluate"]
 
 
 # What comes before an option that is wrong, where something has to.
-REQUIRED = {"graspd-detect": ["cloud.pcd"], "graspd-publish": ["cloud.pcd"], "graspd-log": ["a.log"]}
+REQUIRED = {"graspd-detect": ["cloud.pcd"], "graspd-evaluate": ["cloud.pcd"], "graspd-publish": ["cloud.pcd"],
+            "graspd-log": ["a.log"]}
 
 
 class Usage(GraspdTest):
@@ -24,7 +26,7 @@ class Usage(GraspdTest):
 
     def test_every_program_on_the_bus_takes_a_url(self):
         for name in PROGRAMS:
-            if name != "graspd-detect":
+            if name not in WITHOUT_LCM:
                 self.assertRegex(self.run_program(name, "--help").out, r"-l,\s*--lcm-url")
 
     def test_version(self):
@@ -47,7 +49,7 @@ class Usage(GraspdTest):
 
     def test_option_without_its_value(self):
         for name in PROGRAMS:
-            if name != "graspd-detect":
+            if name not in WITHOUT_LCM:
                 program = self.run_program(name, "--lcm-url", code=2)
                 self.assertIn("--lcm-url", program.err)
 

@@ -8,7 +8,7 @@
 
 #include "client/simulate/rng.hpp"
 #include "client/simulate/scene_builder.hpp"
-#include "tests/unit/client/solid_scenes.hpp"
+#include "tests/unit/evaluate/solid_scenes.hpp"
 
 namespace graspd {
 namespace {

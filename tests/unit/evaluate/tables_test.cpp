@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <utility>
 
 namespace graspd {
 namespace {
@@ -89,6 +90,21 @@ TEST(Tables, NothingToShowIsStillATable) {
   EXPECT_TRUE(json["figures"][0]["recall"].IsNull());
   EXPECT_EQ(write_tables({}, TableFormat::kJson), "{}\n");
   EXPECT_EQ(write_tables({}, TableFormat::kMarkdown), "");
+}
+
+TEST(Tables, RunsSideBySideShowTheSameFigures) {
+  const std::vector<NamedRun> runs{{"a", two_frames()}, {"b", two_frames()}};
+  for (const auto& [both, one] : {std::pair{frame_table_side_by_side(runs), frame_table(two_frames())},
+                                  {object_table_side_by_side(runs), object_table(two_frames())}}) {
+    EXPECT_EQ(both.rows.size(), one.rows.size());
+    for (const auto& row : both.rows) EXPECT_EQ(row.size(), both.columns.size());
+  }
+  const Table frames = frame_table_side_by_side(runs);
+  EXPECT_EQ(frames.columns[2], "a handles");
+  EXPECT_EQ(std::get<std::int64_t>(frames.rows[0][5]), 2);
+  EXPECT_EQ(*std::get<Percentage>(frames.rows[2][7]).value, 0.5);
+  EXPECT_EQ(object_table_side_by_side({}).rows.size(), 0u);
+  EXPECT_EQ(frame_table_side_by_side({}).rows.size(), 1u);
 }
 
 TEST(Tables, InvalidHandlesComeWithTheirReason) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The graspd authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tests/unit/client/solid_scenes.hpp"
+#include "tests/unit/evaluate/solid_scenes.hpp"
 
 #include "service/pipeline/gripper.hpp"
 

@@ -121,7 +121,7 @@ TEST(JudgedScene, KindsAddUp) {
 }
 
 TEST(JudgeScenes, DoesNotDependOnThreads) {
-  const graspd::Run run{"graspd", Gripper{}, DetectConfig{}, {}};
+  const DetectionRun run{"graspd", Gripper{}, DetectConfig{}, {}};
   const EvaluatedRun evaluated{"graspd", Gripper{}, run};
   const auto with_threads = [&](int threads) {
     tbb::task_arena arena(threads);
