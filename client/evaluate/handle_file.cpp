@@ -80,7 +80,8 @@ const std::vector<Handle>* found(const std::map<Key, std::vector<Handle>>& handl
 
 }  // namespace
 
-CsvFile::CsvFile(std::filesystem::path path, std::vector<std::string> needed) : path_(std::move(path)) {
+CsvFile::CsvFile(std::filesystem::path path, const std::vector<std::string>& needed)
+    : path_(std::move(path)) {
   const std::string bytes = read_text(path_);
   std::string_view text = bytes;
   if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);

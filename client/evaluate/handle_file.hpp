@@ -25,7 +25,7 @@ class CsvError : public std::runtime_error {
 class CsvFile {
  public:
   /// Throws CsvError where the file cannot be read, has no such column, or has rows of another length.
-  CsvFile(std::filesystem::path path, std::vector<std::string> needed);
+  CsvFile(std::filesystem::path path, const std::vector<std::string>& needed);
 
   [[nodiscard]] std::size_t size() const { return rows_.size(); }
   [[nodiscard]] bool has(std::string_view column) const { return columns_.contains(std::string(column)); }

@@ -115,6 +115,7 @@ std::vector<ObjectFigures> figures_by_object(std::span<const JudgedFrame> frames
     }
   }
   std::vector<ObjectFigures> result;
+  result.reserve(by_object.size());
   for (const auto& [key, f] : by_object) result.push_back(f);
   return result;
 }
@@ -125,6 +126,7 @@ std::vector<FailureCount> failure_counts(std::span<const JudgedFrame> frames) {
     for (const JudgedHandle& handle : frame.handles)
       if (!handle.valid) ++counts[handle.failure];
   std::vector<FailureCount> result;
+  result.reserve(counts.size());
   for (const auto& [failure, handles] : counts) result.push_back({failure, handles});
   std::stable_sort(result.begin(), result.end(),
                    [](const auto& a, const auto& b) { return a.handles > b.handles; });
