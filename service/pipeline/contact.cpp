@@ -154,27 +154,6 @@ Contact edge_contact(const ContactInput& in, float side, float end_m, float hidd
 
 }  // namespace
 
-std::optional<Eigen::Vector3f> thin_axis(const ContactInput& in, const std::array<float, 2>& hidden_share) {
-  constexpr float kMaxThickness = 0.016f, kMinDepth = 0.010f, kMinCosine = 0.85f;
-  if (in.extent_m > kMaxThickness || std::max(hidden_share[0], hidden_share[1]) > kSeenFree)
-    return std::nullopt;
-  // f = c0 + c1 a + c2 z through the sheet's points; too shallow a part does not tell how it leans.
-  Eigen::Matrix3f A = Eigen::Matrix3f::Identity() * 1e-9f;
-  Eigen::Vector3f b = Eigen::Vector3f::Zero();
-  float min_z = in.depth_m, max_z = in.top_m;
-  for (const std::uint32_t k : in.between) {
-    const Eigen::Vector3f row(1, in.local.a[k], in.local.z[k]);
-    A += row * row.transpose();
-    b += in.local.f[k] * row;
-    min_z = std::min(min_z, in.local.z[k]);
-    max_z = std::max(max_z, in.local.z[k]);
-  }
-  const Eigen::Vector3f c = A.ldlt().solve(b);
-  const Eigen::Vector3f axis(-c[1], 1, max_z - min_z > kMinDepth ? -c[2] : 0.0f);
-  if (axis.normalized().y() < kMinCosine) return std::nullopt;
-  return axis.normalized();
-}
-
 Contact find_contact(const ContactInput& in, float side, float end_m, float hidden_share) {
   const EndPoints end = collect_end(in, side, end_m, hidden_share <= kSeenFree ? 0.5f : 0.7f);
   if (end.near < 2) return {ContactKind::kNone, end_m, {}};

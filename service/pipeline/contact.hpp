@@ -3,7 +3,6 @@
 // What a jaw would meet where the object ends on its side: a wall that was seen, an edge whose wall is out of
 // sight, or nothing that can be relied on.
 #pragma once
-#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -19,7 +18,6 @@ enum class ContactKind : std::uint8_t {
   kFreeEdge,    ///< an edge with seen free space beside it; the wall itself is out of sight
   kCurvedEdge,  ///< beside hidden space: the face carried on as a circle stays clear of the finger
   kFlatEdge,    ///< beside hidden space: the face is flat and ends in a wall at a right angle
-  kThin         ///< a sheet or rod so thin that normals say nothing, with seen free space on both sides
 };
 
 /// Where the candidate is in the scene, and which of the local points are the object's between the jaws.
@@ -48,12 +46,6 @@ struct Contact {
   /// Mean outward normal of a wall, in gripper coordinates; zero for the other kinds.
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();
 };
-
-/// The unit closing axis, in gripper coordinates, across a thin thing between the jaws: the normal of the
-/// sheet through its points. Nothing where it is not thin or not seen to be free on both sides
-/// (hidden_share), or where the jaws would meet it askew.
-[[nodiscard]] std::optional<Eigen::Vector3f> thin_axis(const ContactInput& in,
-                                                       const std::array<float, 2>& hidden_share);
 
 /// Of circles that a profile may be part of; larger ones count as flat [m].
 inline constexpr float kMaxRadius = 0.06f;

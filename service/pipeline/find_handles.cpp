@@ -136,6 +136,16 @@ int enough_before(SearchRound round) {
   return 0;
 }
 
+/// What voxels measure is off by up to half a voxel at either end: they refuse only what is clearly wrong.
+HandleCheckConfig coarse_limits(HandleCheckConfig limits) {
+  limits.max_silhouette_angle_deg = std::min(80.0f, limits.max_silhouette_angle_deg + 6);
+  limits.max_wall_angle_deg = std::min(80.0f, limits.max_wall_angle_deg + 6);
+  limits.max_facing_angle_deg = std::min(80.0f, limits.max_facing_angle_deg + 6);
+  limits.min_own_share *= 0.97f;
+  limits.min_contact_area_m2 *= 0.8f;
+  return limits;
+}
+
 /// The cloud in both resolutions, with what finding points in boxes and behind others needs.
 struct CheckedScene {
   const PointCloud& cloud;
@@ -164,6 +174,7 @@ class GuessSearch {
         config_(config),
         object_of_point_(spread_to_points(objects.of_point, scene.surfaces.voxel_of_point)),
         outlines_(scene.surfaces.cloud, objects.of_point, objects.num_objects),
+        coarse_check_(coarse_limits(config.check)),
         input_{scene.surfaces.cloud, scene.surfaces.normals, scene.surfaces.segments, objects,
                scene.surfaces.support},
         voxels_{scene.surfaces.cloud,   scene.voxel_query, objects.of_point,
@@ -190,7 +201,7 @@ class GuessSearch {
       for (std::size_t k = 0; k < open.size(); ++k)
         if (handles_of_object[k] >= enough_before(round)) open[k] = 0;
       const std::vector<Candidate> left =
-          prefilter(voxels_, gripper_, config_.check, search.candidates(round, open), outlines_, out);
+          prefilter(voxels_, gripper_, coarse_check_, search.candidates(round, open), outlines_, out);
       const Results fine = check_all(points_, gripper_, config_.check, left, nullptr);
       for (std::size_t k = 0; k < left.size(); ++k) {
         count(left[k], fine[k].failure, out);
@@ -209,6 +220,7 @@ class GuessSearch {
   const DetectConfig& config_;
   std::vector<std::int32_t> object_of_point_;
   ObjectOutlines outlines_;
+  HandleCheckConfig coarse_check_;
   SearchInput input_;
   SceneView voxels_, points_;
 };

@@ -14,6 +14,8 @@ namespace {
 
 constexpr int kMinOwnPoints = 12;
 constexpr float kAmpleRoom = 0.25f;  // share of the aperture left free from which on more does not matter
+constexpr float kThin = 0.012f, kThick = 0.022f;  // of objects: narrower is doubtful, wider is not [m]
+constexpr float kAmpleArea = 5e-4f;               // seen between the jaws, beyond what must be [m2]
 constexpr float kHideMargin =
     0.008f;  // a place is hidden when something is nearer to the sensor by this much [m]
 
@@ -262,22 +264,20 @@ Failure Check::check_contacts() {
                            area_per_point(),
                            radians(config_.max_wall_angle_deg),
                            fit_circle(buffers_.profile, kMaxRadius)};
-  const std::array<float, 2> hidden{finger_hidden_share(0, false), finger_hidden_share(1, false)};
-  Contact low{ContactKind::kThin, end_[0], {}}, high{ContactKind::kThin, end_[1], {}};
-  std::optional<Eigen::Vector3f> squared = thin_axis(input, hidden);
-  if (!squared) {
-    low = find_contact(input, -1, end_[0], hidden[0]);
-    high = find_contact(input, 1, end_[1], hidden[1]);
-    if (low.kind == ContactKind::kNone || high.kind == ContactKind::kNone) return Failure::kContact;
-    squared = squared_axis(low, high, input.circle.has_value());
-  }
+  const Contact low = find_contact(input, -1, end_[0], finger_hidden_share(0, false));
+  const Contact high = find_contact(input, 1, end_[1], finger_hidden_share(1, false));
+  if (low.kind == ContactKind::kNone || high.kind == ContactKind::kNone) return Failure::kContact;
+  const Eigen::Vector3f squared = squared_axis(low, high, input.circle.has_value());
   margins_.contact = {low.kind, high.kind};
-  squared_ = handle_.rotation * *squared;
-  const float off = std::acos(std::clamp(squared->y(), -1.0f, 1.0f)) / radians(config_.max_misalignment_deg);
+  squared_ = handle_.rotation * squared;
+  const float off = std::acos(std::clamp(squared.y(), -1.0f, 1.0f)) / radians(config_.max_misalignment_deg);
   if (off > 1) return Failure::kContact;
   margins_.square = 1 - off;
   set_width_from(low, high);
   margins_.width = (gripper_.aperture_m - handle_.width_m) / (kAmpleRoom * gripper_.aperture_m);
+  margins_.thickness = (handle_.width_m - kThin) / (kThick - kThin);
+  margins_.area =
+      (area_per_point() * static_cast<float>(between_.size()) - config_.min_contact_area_m2) / kAmpleArea;
   margins_.grip_depth = (gripper_.grasp_depth_m - top_) / gripper_.grasp_depth_m;
   return handle_.width_m > gripper_.aperture_m - 0.002f ? Failure::kTooWide : Failure::kNone;
 }

@@ -39,12 +39,14 @@ void choose_places(const std::vector<RankedHandle>& handles, std::vector<std::si
                    std::vector<std::size_t>& chosen) {
   std::vector<const Handle*> own;
   while (!left.empty() && static_cast<int>(own.size()) < config.max_per_object) {
-    std::size_t best = left.front();
+    std::size_t best = 0;
     float best_worth = -1;
     std::erase_if(left, [&](std::size_t i) {
       return std::any_of(kept.begin(), kept.end(),
                          [&](const Handle* other) { return same_place(handles[i].handle, *other, config); });
     });
+    if (!own.empty())
+      std::erase_if(left, [&](std::size_t i) { return handles[i].handle.score < config.min_further_score; });
     for (const std::size_t i : left) {
       const float worth = handles[i].handle.score * novelty(handles[i].handle, own, config.spread_m);
       if (worth <= best_worth) continue;

@@ -13,7 +13,8 @@ namespace graspd {
 struct HandleRankingConfig {
   int max_handles = 100;
   int max_per_object = 3;
-  float min_score = 0.0f;
+  float min_score = 0.1f;
+  float min_further_score = 0.5f;
   float distinct_distance_m = 0.02f;
   float distinct_angle_deg = 30.0f;
   float spread_m = 0.05f;
@@ -23,6 +24,8 @@ struct HandleRankingConfig {
     v("max_handles", self.max_handles, Range{1, 10000}, "a list has at most this many handles");
     v("max_per_object", self.max_per_object, Range{1, 1000}, "and this many for one object");
     v("min_score", self.min_score, Range{0, 1}, "handles below it are left out");
+    v("min_further_score", self.min_further_score, Range{0, 1},
+      "the same for all but the best handle of an object");
     v("distinct_distance_m", self.distinct_distance_m, Range{0, 1}, "handles this close are one place [m]");
     v("distinct_angle_deg", self.distinct_angle_deg, Range{0, 180},
       "when their orientations differ by less than this [degrees]");

@@ -3,39 +3,42 @@
 #include "service/pipeline/handle_score.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace graspd {
 namespace {
 
-/// How often a contact of this kind is what it seems.
-float reliability(ContactKind kind) {
+/// What the odds lose by a contact whose wall was not seen.
+float doubt(ContactKind kind) {
   switch (kind) {
     case ContactKind::kWall:
-      return 1.0f;
-    case ContactKind::kFreeEdge:
-      return 0.97f;
-    case ContactKind::kCurvedEdge:
-      return 0.95f;
-    case ContactKind::kFlatEdge:
-      return 0.90f;
-    case ContactKind::kThin:
-      return 0.95f;
-    case ContactKind::kNone:
       return 0.0f;
+    case ContactKind::kFreeEdge:
+      return 0.6f;
+    case ContactKind::kCurvedEdge:
+      return 0.5f;
+    case ContactKind::kFlatEdge:
+      return 0.3f;
+    case ContactKind::kNone:
+      return 10.0f;
   }
-  return 0.0f;
+  return 10.0f;
 }
 
-float term(float margin, float weight) {
-  return 1 - weight * (1 - std::clamp(margin, 0.0f, 1.0f));
+/// And by a margin that is used up.
+float doubt(float margin, float weight) {
+  return weight * (1 - std::clamp(margin, 0.0f, 1.0f));
 }
 
 }  // namespace
 
 float score(const HandleMargins& m) {
-  return reliability(m.contact[0]) * reliability(m.contact[1]) * term(m.width, 0.15f) *
-         term(m.grip_depth, 0.15f) * term(m.silhouettes, 0.10f) * term(m.walls, 0.10f) *
-         term(m.square, 0.10f) * term(m.seen, 0.10f) * term(m.central, 0.15f);
+  constexpr float kBestLogOdds = 3.9f;
+  const float doubts = doubt(m.contact[0]) + doubt(m.contact[1]) + doubt(m.square, 2.9f) +
+                       doubt(m.area, 2.6f) + doubt(m.walls, 2.3f) + doubt(m.seen, 1.7f) +
+                       doubt(m.thickness, 1.6f) + doubt(m.silhouettes, 0.9f) + doubt(m.grip_depth, 0.5f) +
+                       doubt(m.central, 0.5f) + doubt(m.width, 0.3f);
+  return 1 / (1 + std::exp(doubts - kBestLogOdds));
 }
 
 }  // namespace graspd

@@ -18,11 +18,15 @@ struct HandleMargins {
   float square = 1;       ///< how squarely the jaws meet walls or sides
   float walls = 1;        ///< how little they widen towards the fingertips
   float seen = 1;         ///< smaller of the two fingers' observed free shares
+  float thickness = 1;    ///< how far the object is from so narrow that its normals mix both of its sides
+  float area = 1;         ///< how much of it is seen between the jaws
   float central = 1;      ///< how near the jaws are to the middle of the visible object
 };
 
-/// The product of the contacts' reliabilities and of each margin's term, which goes from its weight's
-/// complement to 1.
+/// The chance that the handle holds: a logistic function of the contacts and the margins, each of which takes
+/// from the log odds of the best handle there can be. The weights are those of a logistic regression over
+/// handles on simulated scenes that were judged on their true solids (graspd-evaluate --simulate); no real
+/// frame took part.
 [[nodiscard]] float score(const HandleMargins& margins);
 
 }  // namespace graspd

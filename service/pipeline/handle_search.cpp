@@ -82,13 +82,6 @@ Eigen::Vector3f face_normal(const SearchInput& in, const std::vector<std::uint32
   return sum.norm() > 1e-3f ? sum.normalized() : n;
 }
 
-/// Where nothing tells up, towards the sensor from the middle of what it sees.
-Eigen::Vector3f up_in_view(const PointCloud& cloud) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (std::size_t i = 0; i < cloud.size(); ++i) sum += cloud.point(i).cast<double>();
-  return (cloud.viewpoint - (sum / static_cast<double>(cloud.size())).cast<float>()).normalized();
-}
-
 std::vector<std::vector<std::uint32_t>> points_by_object(const Objects& objects) {
   std::vector<std::vector<std::uint32_t>> points(static_cast<std::size_t>(objects.num_objects));
   for (std::uint32_t i = 0; i < objects.of_point.size(); ++i)
@@ -104,19 +97,15 @@ HandleSearch::HandleSearch(const SearchInput& input, const Gripper& gripper, con
       gripper_(gripper),
       config_(config),
       max_cosine_(std::cos(config.distinct_angle_deg * std::numbers::pi_v<float> / 180)),
-      up_(input.support ? input.support->plane.normal : up_in_view(input.cloud)),
       rectangle_axes_(input.segments.list.size()),
-      points_(points_by_object(input.objects)),
-      seeds_(points_.size()),
-      first_segment_(points_.size(), -1) {
-  for (std::size_t s = input.segments.list.size(); s-- > 0;)
-    first_segment_[static_cast<std::size_t>(input.objects.of_segment[s])] = static_cast<std::int32_t>(s);
+      seeds_(static_cast<std::size_t>(input.objects.num_objects)) {
   if (!config.seeds) return;
   tbb::parallel_for(std::size_t{0}, rectangle_axes_.size(), [&](std::size_t s) {
     rectangle_axes_[s] = rectangle_axis(in_.cloud, in_.segments.list[s]);
   });
-  tbb::parallel_for(std::size_t{0}, points_.size(), [&](std::size_t k) {
-    if (wanted[k]) seeds_[k] = spread_seeds(points_[k]);
+  const std::vector<std::vector<std::uint32_t>> points = points_by_object(in_.objects);
+  tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t k) {
+    if (wanted[k]) seeds_[k] = spread_seeds(points[k]);
   });
 }
 
@@ -216,22 +205,6 @@ void HandleSearch::add_bands(std::size_t s, const Eigen::Vector3f& axis, std::ve
                      static_cast<std::int32_t>(s), in_.objects.of_segment[s]});
 }
 
-/// From above, and halfway between there and the sensor, across the crest.
-void HandleSearch::add_crests(std::size_t object, std::vector<Candidate>& out) const {
-  for (const Crest& crest : find_crests(in_.cloud, points_[object], up_, config_.seed_spacing_m)) {
-    const Eigen::Vector3f place = in_.cloud.point(crest.point);
-    const Eigen::Vector3f to_sensor = (in_.cloud.viewpoint - place).normalized();
-    std::int32_t s = in_.segments.of_point[crest.point];
-    if (s < 0) s = first_segment_[object];
-    Directions outward;
-    add_distinct(outward, up_, max_cosine_, false);
-    add_distinct(outward, up_ + to_sensor, max_cosine_, false);
-    for (const Eigen::Vector3f& o : outward)
-      if (o.dot(to_sensor) >= config_.min_facing_cosine && o.cross(crest.tangent).norm() > 0.5f)
-        out.push_back({place, gripper_axes(o, crest.tangent), s, static_cast<std::int32_t>(object)});
-  }
-}
-
 void HandleSearch::add_seeds(std::size_t object, SearchRound round, std::vector<Candidate>& out) const {
   const std::vector<Seed>& seeds = seeds_[object];
   const bool all = round == SearchRound::kAllDirections;
@@ -263,10 +236,7 @@ std::vector<Candidate> HandleSearch::candidates(SearchRound round,
       add_bands(s, in_.segments.list[s].minor, candidates);
     }
   for (std::size_t object = 0; object < seeds_.size(); ++object)
-    if (wanted[object]) {
-      if (config_.crests && round == SearchRound::kSurroundings) add_crests(object, candidates);
-      add_seeds(object, round, candidates);
-    }
+    if (wanted[object]) add_seeds(object, round, candidates);
   return candidates;
 }
 

@@ -8,7 +8,6 @@
 #include <optional>
 #include <vector>
 
-#include "service/pipeline/crests.hpp"
 #include "service/pipeline/handle_check.hpp"
 #include "service/pipeline/normals.hpp"
 #include "service/pipeline/objects.hpp"
@@ -20,7 +19,6 @@ namespace graspd {
 struct HandleSearchConfig {
   bool bands = true;
   bool seeds = true;
-  bool crests = true;
   float seed_spacing_m = 0.025f;
   float min_facing_cosine = 0.17f;
   float distinct_angle_deg = 12.0f;
@@ -30,7 +28,6 @@ struct HandleSearchConfig {
   static void visit(Self& self, Visitor&& v) {
     v("bands", self.bands, Range{}, "the paper's bands along the principal axes of each segment");
     v("seeds", self.seeds, Range{}, "seeds over each object, with several approaches and closing axes");
-    v("crests", self.crests, Range{}, "along rims and narrow upper edges of objects with few handles");
     v("seed_spacing_m", self.seed_spacing_m, Range{0.005, 1}, "between seeds [m]");
     v("min_facing_cosine", self.min_facing_cosine, Range{0, 1},
       "cosine between the line of sight and the approach; smaller: the hand comes from behind");
@@ -79,18 +76,14 @@ class HandleSearch {
                                       SearchRound round) const;
   [[nodiscard]] Directions other_axes(const Eigen::Vector3f& outward, const Directions& tried) const;
   void add_bands(std::size_t segment, const Eigen::Vector3f& axis, std::vector<Candidate>& out) const;
-  void add_crests(std::size_t object, std::vector<Candidate>& out) const;
   void add_seeds(std::size_t object, SearchRound round, std::vector<Candidate>& out) const;
 
   const SearchInput& in_;
   const Gripper& gripper_;
   const HandleSearchConfig& config_;
-  float max_cosine_;                                // between directions that are distinct
-  Eigen::Vector3f up_;                              // the support's normal, or towards the sensor
-  Directions rectangle_axes_;                       // of each segment
-  std::vector<std::vector<std::uint32_t>> points_;  // of each object
-  std::vector<std::vector<Seed>> seeds_;            // the same
-  std::vector<std::int32_t> first_segment_;         // the same
+  float max_cosine_;                      // between directions that are distinct
+  Directions rectangle_axes_;             // of each segment
+  std::vector<std::vector<Seed>> seeds_;  // of each object
 };
 
 }  // namespace graspd
