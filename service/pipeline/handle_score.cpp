@@ -14,11 +14,11 @@ float doubt(ContactKind kind) {
     case ContactKind::kWall:
       return 0.0f;
     case ContactKind::kFreeEdge:
-      return 0.6f;
+      return 0.4f;
     case ContactKind::kCurvedEdge:
-      return 0.5f;
+      return 0.55f;
     case ContactKind::kFlatEdge:
-      return 0.3f;
+      return 0.15f;
     case ContactKind::kNone:
       return 10.0f;
   }
@@ -33,10 +33,10 @@ float doubt(float margin, float weight) {
 }  // namespace
 
 float score(const HandleMargins& m) {
-  constexpr float kBestLogOdds = 3.9f;
-  const float doubts = doubt(m.contact[0]) + doubt(m.contact[1]) + doubt(m.square, 2.9f) +
-                       doubt(m.area, 2.6f) + doubt(m.walls, 2.3f) + doubt(m.seen, 1.7f) +
-                       doubt(m.thickness, 1.6f) + doubt(m.silhouettes, 0.9f) + doubt(m.grip_depth, 0.5f) +
+  constexpr float kBestLogOdds = 3.45f;
+  const float doubts = doubt(m.contact[0]) + doubt(m.contact[1]) + doubt(m.square, 3.9f) +
+                       doubt(m.area, 3.3f) + doubt(m.walls, 2.5f) + doubt(m.seen, 0.6f) +
+                       doubt(m.thickness, 1.4f) + doubt(m.silhouettes, 1.4f) + doubt(m.grip_depth, 0.5f) +
                        doubt(m.central, 0.5f) + doubt(m.width, 0.3f);
   return 1 / (1 + std::exp(doubts - kBestLogOdds));
 }
