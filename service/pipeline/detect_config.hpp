@@ -3,6 +3,7 @@
 // The settings of the whole method, one struct a stage.
 #pragma once
 
+#include "service/pipeline/container.hpp"
 #include "service/pipeline/downsample.hpp"
 #include "service/pipeline/edge_points.hpp"
 #include "service/pipeline/handle_check.hpp"
@@ -25,6 +26,7 @@ struct DetectConfig {
   SmoothnessConfig smoothness;
   SupportConfig support;
   SegmentsConfig segments;
+  ContainerConfig container;
   ObjectsConfig objects;
   HandleSearchConfig search;
   HandleCheckConfig check;
@@ -39,6 +41,7 @@ struct DetectConfig {
     v("smoothness", self.smoothness, "edge points and region growing under two thresholds");
     v("support", self.support, "the plane that objects stand on");
     v("segments", self.segments, "which surfaces are looked at");
+    v("container", self.container, "the bin that objects lie in");
     v("objects", self.objects, "which segments belong together");
     v("search", self.search, "candidates");
     v("check", self.check, "what a candidate must fulfil");

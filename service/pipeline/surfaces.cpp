@@ -21,6 +21,19 @@ Normals surface_normals(const PointCloud& cloud, const Neighborhoods& neighborho
   return normals;
 }
 
+/// Marks the walls of a container as fixed and takes them out of the labels; false where there is none.
+bool take_out_container(const Surfaces& s, const DetectConfig& config, std::vector<std::uint8_t>& is_fixed,
+                        Labels& labels) {
+  if (!s.support) return false;
+  const std::vector<std::uint8_t> is_wall = find_container(s.cloud, s.segments, *s.support, config.container);
+  for (std::size_t i = 0; i < is_wall.size(); ++i) {
+    if (!is_wall[i]) continue;
+    is_fixed[i] = 1;
+    labels.of_point[i] = -1;
+  }
+  return !is_wall.empty();
+}
+
 }  // namespace
 
 Surfaces find_surfaces(const PointCloud& cloud, const DetectConfig& config, const StageObserver& done) {
@@ -49,8 +62,11 @@ Surfaces find_surfaces(const PointCloud& cloud, const DetectConfig& config, cons
   Labels labels = grow_regions(s.normals, neighborhoods, s.is_edge, is_support, config.smoothness);
   done("region_growing");
   s.segments = build_segments(s.cloud, labels, leaf, config.segments);
+  std::vector<std::uint8_t> is_fixed = is_support;
+  if (take_out_container(s, config, is_fixed, labels))
+    s.segments = build_segments(s.cloud, labels, leaf, config.segments);
   done("segments");
-  s.objects = group_segments(s.cloud, s.normals, neighborhoods, s.segments, is_support, config.objects);
+  s.objects = group_segments(s.cloud, s.normals, neighborhoods, s.segments, is_fixed, config.objects);
   s.wholes = merge_objects(s.cloud, s.normals, neighborhoods, s.objects, config.objects);
   done("objects");
   return s;

@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/pipeline/container.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace graspd {
+namespace {
+
+constexpr float kMaxLean = 0.26f;      // sine: of an upright face's normal out of the horizontal
+constexpr float kMaxScatter = 0.005f;  // root mean square of a flat face [m]
+constexpr float kClear = 0.03f;        // what is farther than this from a face is beside it [m]
+constexpr float kTrimmed = 0.02f;      // share of the points at either end that does not count for its length
+
+struct Wall {
+  Plane face;   // its normal horizontal
+  float top_m;  // height above the support
+};
+
+/// Points above the support.
+std::vector<std::uint32_t> standing_points(const PointCloud& cloud, const Support& support) {
+  std::vector<std::uint32_t> points;
+  for (std::uint32_t i = 0; i < cloud.size(); ++i)
+    if (!support.is_support[i]) points.push_back(i);
+  return points;
+}
+
+float flatness(const PointCloud& cloud, const Segment& segment) {
+  float squares = 0;
+  for (const std::uint32_t i : segment.points) {
+    const float d = segment.normal.dot(cloud.point(i) - segment.centroid);
+    squares += d * d;
+  }
+  return std::sqrt(squares / static_cast<float>(segment.points.size()));
+}
+
+/// Length of the middle part of some numbers; reorders them.
+float trimmed_length(std::vector<float>& values) {
+  std::sort(values.begin(), values.end());
+  const auto skip = static_cast<std::size_t>(kTrimmed * static_cast<float>(values.size()));
+  return values.empty() ? 0.0f : values[values.size() - 1 - skip] - values[skip];
+}
+
+/// Whether the face is long and high enough, and has nearly all points on one side.
+bool is_wall(const PointCloud& cloud, const std::vector<std::uint32_t>& standing, const Support& support,
+             const ContainerConfig& config, Wall& wall) {
+  const Eigen::Vector3f along = support.plane.normal.cross(wall.face.normal);
+  std::vector<float> lengths, heights;
+  std::size_t front = 0, behind = 0;
+  for (const std::uint32_t i : standing) {
+    const Eigen::Vector3f p = cloud.point(i);
+    const float d = wall.face.height(p);
+    front += d > kClear ? 1 : 0;
+    behind += d < -kClear ? 1 : 0;
+    if (std::abs(d) > config.thickness_m) continue;
+    lengths.push_back(along.dot(p));
+    heights.push_back(support.plane.height(p));
+  }
+  const auto most = static_cast<std::size_t>(config.max_outside_share * static_cast<float>(standing.size()));
+  if (std::min(front, behind) > most || trimmed_length(lengths) < config.min_length_m) return false;
+  if (trimmed_length(heights) < 0.7f * config.min_height_m) return false;
+  wall.top_m = heights[heights.size() - 1 - heights.size() / 50];
+  return wall.top_m >= config.min_height_m;
+}
+
+std::vector<Wall> find_walls(const PointCloud& cloud, const Segments& segments,
+                             const std::vector<std::uint32_t>& standing, const Support& support,
+                             const ContainerConfig& config) {
+  std::vector<Wall> walls;
+  for (const Segment& segment : segments.list) {
+    const float lean = segment.normal.dot(support.plane.normal);
+    if (std::abs(lean) > kMaxLean || flatness(cloud, segment) > kMaxScatter) continue;
+    const Eigen::Vector3f normal = (segment.normal - lean * support.plane.normal).normalized();
+    Wall wall{{normal, -normal.dot(segment.centroid)}, 0};
+    if (is_wall(cloud, standing, support, config, wall)) walls.push_back(wall);
+  }
+  return walls;
+}
+
+/// Across each other, or parallel and well apart.
+bool make_container(const Wall& a, const Wall& b, float min_apart_m) {
+  const float cosine = a.face.normal.dot(b.face.normal);
+  if (std::abs(cosine) < 0.35f) return true;
+  const float apart = cosine > 0 ? a.face.offset_m - b.face.offset_m : a.face.offset_m + b.face.offset_m;
+  return std::abs(cosine) > 0.94f && std::abs(apart) > min_apart_m;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> find_container(const PointCloud& cloud, const Segments& segments,
+                                         const Support& support, const ContainerConfig& config) {
+  if (!config.enabled) return {};
+  const std::vector<std::uint32_t> standing = standing_points(cloud, support);
+  std::vector<Wall> walls = find_walls(cloud, segments, standing, support, config);
+  const std::vector<Wall> all = walls;
+  std::erase_if(walls, [&](const Wall& wall) {
+    return std::none_of(all.begin(), all.end(), [&](const Wall& other) {
+      return make_container(wall, other, 0.5f * config.min_length_m);
+    });
+  });
+  if (walls.empty()) return {};
+  std::vector<std::uint8_t> belongs(cloud.size());
+  for (const std::uint32_t i : standing) {
+    const Eigen::Vector3f p = cloud.point(i);
+    const float height = support.plane.height(p);
+    belongs[i] = std::any_of(walls.begin(), walls.end(), [&](const Wall& wall) {
+      return std::abs(wall.face.height(p)) <= config.thickness_m && height <= wall.top_m + config.thickness_m;
+    });
+  }
+  return belongs;
+}
+
+}  // namespace graspd
