@@ -8,13 +8,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <numeric>
 
 #include "service/pipeline/object_outline.hpp"
 
 namespace graspd {
 namespace {
 
-constexpr float kVoxelCell = 0.03f;  // of the grids for box queries [m]
+constexpr float kVoxelCell = 0.02f;  // of the grids for box queries [m]
 constexpr float kPointCell = 0.015f;
 constexpr int kVoxelTolerance =
     2;  // stray points a volume may have: counts are absolute, noise does not scale
@@ -108,19 +110,39 @@ void count(const Candidate& candidate, Failure failure, CheckedCandidates& out) 
   ++out.failures[static_cast<std::size_t>(failure)];
 }
 
-/// The candidates that pass among the voxels; counts the others.
+/// The most promising candidates of each object, in their order: a few dozen that passed among the voxels
+/// hold the few that are published.
+std::vector<Candidate> most_promising(const std::vector<Candidate>& candidates,
+                                      const std::vector<float>& scores, std::size_t most) {
+  std::vector<std::size_t> order(candidates.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return scores[a] > scores[b]; });
+  std::map<std::int32_t, std::size_t> taken;
+  std::erase_if(order, [&](std::size_t i) { return ++taken[candidates[i].object] > most; });
+  std::sort(order.begin(), order.end());
+  std::vector<Candidate> result;
+  for (const std::size_t i : order) result.push_back(candidates[i]);
+  return result;
+}
+
+/// The candidates that pass among the voxels, the most promising ones of each object; counts those that fail.
 std::vector<Candidate> prefilter(const SceneView& voxels, const Gripper& gripper,
                                  const HandleCheckConfig& config, const std::vector<Candidate>& candidates,
                                  const ObjectOutlines& outlines, CheckedCandidates& out) {
+  constexpr std::size_t kMostOfAnObject = 12;
   const Results coarse = check_all(voxels, gripper, config, candidates, &outlines);
-  std::vector<Candidate> left;
+  std::vector<Candidate> passed;
+  std::vector<float> scores;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    if (coarse[i].failure == Failure::kNone)
-      left.push_back(candidates[i]);
-    else
+    if (coarse[i].failure != Failure::kNone) {
       count(candidates[i], coarse[i].failure, out);
+      continue;
+    }
+    passed.push_back(candidates[i]);
+    scores.push_back(score(coarse[i].margins));
   }
-  return left;
+  return most_promising(passed, scores, kMostOfAnObject);
 }
 
 /// An object with this many handles takes no part in a round.
@@ -129,7 +151,7 @@ int enough_before(SearchRound round) {
     case SearchRound::kSurface:
       return std::numeric_limits<int>::max();
     case SearchRound::kSurroundings:
-      return 8;
+      return 6;
     case SearchRound::kAllDirections:
       return 1;
   }
