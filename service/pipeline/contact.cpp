@@ -25,29 +25,30 @@ constexpr float kMaxFlatTilt = 0.40f;  // tilt of a flat face that is carried on
 constexpr float kMaxDoubt = 0.006f;    // between two guesses at where a round face ends [m]
 constexpr float kMaxUnseenBulge = 0.012f;  // beyond an edge beside seen space [m]
 
-/// A point of the face near the end: distance inwards from the end, and depth.
+/// A point of the face near the end: distance inwards from the end, depth, and place along the major axis.
 struct FacePoint {
-  float in, z;
+  float in, z, a;
 };
 
-/// z = c0 + c1 in + c2 in^2 by iteratively reweighted least squares (Cauchy weights, scale 2 mm); in is
+/// z = c0 + c1 in + c2 in^2 (+ c3 a) by iteratively reweighted least squares (Cauchy weights, scale 2 mm). A
+/// face may be tilted along the major axis, too, by more than what its profile is asked for. Lengths are
 /// scaled to keep the normal equations well conditioned.
 Eigen::Vector3f fit_profile(const std::vector<FacePoint>& face, float span) {
-  Eigen::Vector3f c = Eigen::Vector3f::Zero();
+  Eigen::Vector4f c = Eigen::Vector4f::Zero();
   std::vector<float> weight(face.size(), 1.0f);
   for (int round = 0; round < 5; ++round) {
-    Eigen::Matrix3f A = Eigen::Matrix3f::Identity() * 1e-6f;
-    Eigen::Vector3f b = Eigen::Vector3f::Zero();
+    Eigen::Matrix4f A = Eigen::Matrix4f::Identity() * 1e-6f;
+    Eigen::Vector4f b = Eigen::Vector4f::Zero();
     for (std::size_t i = 0; i < face.size(); ++i) {
       const float s = face[i].in / span;
-      const Eigen::Vector3f row(1, s, s * s);
+      const Eigen::Vector4f row(1, s, s * s, face[i].a / span);
       A += weight[i] * row * row.transpose();
       b += weight[i] * face[i].z * row;
     }
     c = A.ldlt().solve(b);
     for (std::size_t i = 0; i < face.size(); ++i) {
       const float s = face[i].in / span;
-      const float e = (c[0] + c[1] * s + c[2] * s * s - face[i].z) / 0.002f;
+      const float e = (c[0] + c[1] * s + c[2] * s * s + c[3] * face[i].a / span - face[i].z) / 0.002f;
       weight[i] = 1 / (1 + e * e);
     }
   }
@@ -76,7 +77,7 @@ EndPoints collect_end(const ContactInput& in, float side, float end_m, float min
         out.facing_sum += n;
       }
     }
-    if (-approach.dot(n) >= min_upright) out.face.push_back({inwards, in.local.z[k]});
+    if (-approach.dot(n) >= min_upright) out.face.push_back({inwards, in.local.z[k], in.local.a[k]});
   }
   return out;
 }

@@ -65,13 +65,13 @@ struct HandleCheckConfig {
       "how deep the object must reach between the jaws [m]");
     v("min_contact_area_m2", self.min_contact_area_m2, Range{0, 0.01},
       "how much of it must be seen between the jaws [m2]");
-    v("max_silhouette_angle_deg", self.max_silhouette_angle_deg, Range{0, 90},
+    v("max_silhouette_angle_deg", self.max_silhouette_angle_deg, Range{1, 89},
       "between the object's sides and the major axis [degrees]");
-    v("max_wall_angle_deg", self.max_wall_angle_deg, Range{0, 90},
+    v("max_wall_angle_deg", self.max_wall_angle_deg, Range{1, 89},
       "by which the sides may widen towards the fingertips [degrees]");
     v("max_facing_angle_deg", self.max_facing_angle_deg, Range{0, 90},
       "between a wall's normal and the jaw [degrees]");
-    v("max_misalignment_deg", self.max_misalignment_deg, Range{0, 90},
+    v("max_misalignment_deg", self.max_misalignment_deg, Range{1, 89},
       "between the closing axis and what would meet the object's walls or sides squarely [degrees]");
     v("max_hidden_share", self.max_hidden_share, Range{0, 1},
       "share of a finger's volume that may be hidden, one finger excepted");

@@ -149,13 +149,15 @@ template <class Gather>
 Failure settle_top(const SceneView& scene, const Gripper& g, CheckBuffers& buffers, const Gather& gather,
                    PatchFit& fit) {
   constexpr int kMostRounds = 4;
+  float gathered_m = 0;
   for (int round = 0; round < kMostRounds; ++round) {
+    // What was gathered may end short of a top so far up, or of what is in the fingers' way above it.
+    const bool is_far_up = fit.top_m < gathered_m - kTopWindow;
+    if (is_far_up) gather(gathered_m = fit.top_m);
     const float before = fit.top_m;
     const float low = fit.center_m - 0.5f * fit.width_m, high = low + fit.width_m;
     if (!find_top(buffers, low, high, fit.top_m)) return Failure::kTooFewPoints;
-    if (std::abs(fit.top_m - before) < kBin) break;
-    // What was gathered may end short of a top so far up.
-    if (fit.top_m < -kTopWindow) gather(fit.top_m);
+    if (!is_far_up && std::abs(fit.top_m - before) < kBin) break;
     if (const Failure failure = find_patch(scene, g, buffers, fit.center_m, fit); failure != Failure::kNone)
       return failure;
   }

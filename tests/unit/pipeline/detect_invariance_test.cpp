@@ -92,7 +92,8 @@ Eigen::Isometry3d pose(double angle, const Eigen::Vector3d& axis, const Eigen::V
 }
 
 // Voxels lie on the axes of the frame, so that in another frame each holds other points: means move by up to
-// half a voxel, candidates with them, and bands by as much. What is held, and how wide it is, stays.
+// half a voxel, candidates with them, and bands by as much. What is held stays, and how wide it is, as far as
+// both of its sides are seen: one out of sight is carried on from what is seen, at another place otherwise.
 TEST(DetectInvariance, MotionOfTheFrame) {
   const AnalyticScene scene = three_objects();
   const PointCloud cloud = render(scene).cloud;
@@ -109,7 +110,7 @@ TEST(DetectInvariance, MotionOfTheFrame) {
     for (Handle& handle : back.handles) handle = transformed(handle, T.inverse().cast<float>());
     const auto widths = best_widths(back, scene);
     ASSERT_EQ(widths.size(), 3u);
-    for (const auto& [solid, width] : here) EXPECT_NEAR(width, widths.at(solid), 0.004) << "solid " << solid;
+    for (const auto& [solid, width] : here) EXPECT_NEAR(width, widths.at(solid), 0.005) << "solid " << solid;
     for (const Handle& handle : back.handles) {
       const HandleTruth truth = judge(handle, {}, DetectConfig{}.check, scene);
       EXPECT_EQ(truth.num_between, 1);

@@ -4,9 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <map>
 #include <regex>
 #include <set>
 #include <string>
+
+#include "tests/support/scene_gallery.hpp"
+#include "tests/unit/pipeline/check_scene.hpp"
 
 namespace graspd {
 namespace {
@@ -20,6 +25,61 @@ TEST(Failure, NamesAreDistinctAndLowerSnake) {
   }
   EXPECT_EQ(name(Failure::kTooWide), "too_wide");
   EXPECT_EQ(name(Failure::kNone), "none");
+}
+
+/// The keys and ranges of the limits that are angles.
+struct AngleRanges {
+  std::map<std::string, Range> ranges;
+  template <class T>
+  void operator()(const char* key, const T&, const Range& range, const char*) {
+    if (std::string(key).ends_with("_deg")) ranges[key] = range;
+  }
+};
+
+struct AngleSetter {
+  std::string key;
+  float value;
+  template <class T>
+  void operator()(const char* name, T& field, const Range&, const char*) {
+    if (key == name) field = static_cast<T>(value);
+  }
+};
+
+TEST(HandleCheck, EveryLimitOfAnAngleMayBeAtEitherEndOfItsRange) {
+  const CheckScene scene(box_on_table());
+  const Candidate candidate =
+      scene.candidate({0, 0, 0.08f}, -Eigen::Vector3f::UnitZ(), Eigen::Vector3f::UnitX());
+  CheckBuffers buffers;
+  ASSERT_EQ(check_candidate(scene.view(), {}, {}, candidate, buffers).failure, Failure::kNone);
+  AngleRanges angles;
+  const HandleCheckConfig usual;
+  HandleCheckConfig::visit(usual, angles);
+  EXPECT_GE(angles.ranges.size(), 4u);
+  for (const auto& [key, range] : angles.ranges) {
+    SCOPED_TRACE(key);
+    HandleCheckConfig config;
+    HandleCheckConfig::visit(config, AngleSetter{key, static_cast<float>(range.max)});
+    const CheckResult loose = check_candidate(scene.view(), {}, config, candidate, buffers);
+    EXPECT_EQ(loose.failure, Failure::kNone) << "what passes the usual limit passes a wider one";
+    EXPECT_TRUE(std::isfinite(score(loose.margins)));
+    HandleCheckConfig::visit(config, AngleSetter{key, static_cast<float>(range.min)});
+    const CheckResult strict = check_candidate(scene.view(), {}, config, candidate, buffers);
+    EXPECT_TRUE(strict.failure != Failure::kNone || std::isfinite(score(strict.margins)));
+  }
+}
+
+TEST(HandleCheck, ABoxIsHeldAcrossItsNarrowSideOnly) {
+  const CheckScene scene(box_on_table());
+  CheckBuffers buffers;
+  const auto check = [&](const Eigen::Vector3f& closing) {
+    return check_candidate(scene.view(), {}, {},
+                           scene.candidate({0, 0, 0.08f}, -Eigen::Vector3f::UnitZ(), closing), buffers);
+  };
+  const CheckResult across = check(Eigen::Vector3f::UnitX());
+  ASSERT_EQ(across.failure, Failure::kNone);
+  EXPECT_NEAR(across.handle.width_m, 0.05f, 0.003f);
+  EXPECT_GT(std::abs(across.squared_axis.x()), 0.99f) << "square to the sides already";
+  EXPECT_EQ(check(Eigen::Vector3f::UnitY()).failure, Failure::kTooWide) << "120 mm";
 }
 
 }  // namespace

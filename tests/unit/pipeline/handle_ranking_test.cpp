@@ -29,6 +29,7 @@ Eigen::Matrix3f turned(float angle_deg, const Eigen::Vector3f& axis) {
 HandleRankingConfig unlimited() {
   HandleRankingConfig config;
   config.max_handles = config.max_per_object = 1000;
+  config.min_score = config.min_further_score = 0;
   return config;
 }
 
