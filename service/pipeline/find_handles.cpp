@@ -50,6 +50,25 @@ CheckResult check_squarely(const SceneView& scene, const Gripper& gripper, const
   return result;
 }
 
+/// How many of two places next to it along the major axis, and of two turned about the approach, hold too:
+/// the robot and the cloud are a little off.
+float steadiness(const SceneView& scene, const Gripper& gripper, const HandleCheckConfig& config,
+                 const Candidate& candidate, const CheckResult& result, CheckBuffers& buffers) {
+  constexpr float kShift = 0.003f, kTurn = 0.087f;
+  int held = 0;
+  for (const float sign : {-1.0f, 1.0f}) {
+    Candidate shifted = candidate;
+    shifted.position = result.handle.position + sign * kShift * result.handle.rotation.col(0);
+    shifted.rotation = result.handle.rotation;
+    held += check_candidate(scene, gripper, config, shifted, buffers).failure == Failure::kNone ? 1 : 0;
+    Candidate turned = shifted;
+    turned.position = result.handle.position;
+    turned.rotation = result.handle.rotation * Eigen::AngleAxisf(sign * kTurn, Eigen::Vector3f::UnitZ());
+    held += check_candidate(scene, gripper, config, turned, buffers).failure == Failure::kNone ? 1 : 0;
+  }
+  return 0.25f * static_cast<float>(held);
+}
+
 /// outlines: a first look, which refuses at little cost what is much too wide; null: the thorough one.
 Results check_all(const SceneView& scene, const Gripper& gripper, const HandleCheckConfig& config,
                   const std::vector<Candidate>& candidates, const ObjectOutlines* outlines) {
@@ -64,6 +83,8 @@ Results check_all(const SceneView& scene, const Gripper& gripper, const HandleCh
       else
         results[i] = outlines ? check_candidate(scene, gripper, config, candidate, own)
                               : check_squarely(scene, gripper, config, candidate, own);
+      if (!outlines && results[i].failure == Failure::kNone)
+        results[i].margins.steady = steadiness(scene, gripper, config, candidate, results[i], own);
     }
   });
   return results;
