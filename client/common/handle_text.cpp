@@ -101,9 +101,8 @@ std::string handle_table(const handle_list_t& list, std::size_t max_rows) {
   return text;
 }
 
-std::string handle_list_json(const handle_list_t& list) {
-  JsonWriter json;
-  json.begin_object().member("utime", list.utime).member("seq", list.seq);
+void write_handle_list(JsonWriter& json, const handle_list_t& list) {
+  json.member("utime", list.utime).member("seq", list.seq);
   json.member("source_channel", list.source_channel).member("frame_name", list.frame_name);
   write_gripper(json, list.gripper);
   json.member("status", status_name(list.status)).member("status_text", list.status_text);
@@ -116,7 +115,14 @@ std::string handle_list_json(const handle_list_t& list) {
   json.end_object().member("latency", list.latency);
   json.key("handles").begin_array();
   for (const handle_t& handle : list.handles) write_handle(json, handle);
-  json.end_array().end_object();
+  json.end_array();
+}
+
+std::string handle_list_json(const handle_list_t& list) {
+  JsonWriter json;
+  json.begin_object();
+  write_handle_list(json, list);
+  json.end_object();
   return json.str();
 }
 

@@ -11,6 +11,8 @@
 
 namespace graspd {
 
+class JsonWriter;
+
 /// OK, NO_HANDLES, ...: the name of a handle_list_t's status; UNKNOWN for other values.
 [[nodiscard]] std::string_view status_name(std::int8_t status);
 
@@ -22,5 +24,8 @@ namespace graspd {
 
 /// Everything in the list, in one line, under the names of the wire type; no newline.
 [[nodiscard]] std::string handle_list_json(const handle_list_t& list);
+
+/// The same as members of the object that is open.
+void write_handle_list(JsonWriter& json, const handle_list_t& list);
 
 }  // namespace graspd

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <span>
+#include <utility>
 
 #include "client/common/handle_text.hpp"
 #include "client/common/text.hpp"
@@ -29,7 +30,7 @@ std::string reasons(std::span<const reason_count_t> counts) {
 
 }  // namespace
 
-handle_list_t detect_in_cloud(const PointCloud& cloud, const std::string& frame_name, std::int64_t seq,
+FileDetection detect_in_cloud(const PointCloud& cloud, const std::string& frame_name, std::int64_t seq,
                               const SourceConfig& source) {
   const auto start = Clock::now();
   auto last = start;
@@ -42,11 +43,15 @@ handle_list_t detect_in_cloud(const PointCloud& cloud, const std::string& frame_
     last = now;
   };
   const Gripper& gripper = source.gripper.gripper;
-  const Detection detection = detect_handles(cloud, gripper, source.detect, on_stage);
+  Detection detection = detect_handles(cloud, gripper, source.detect, on_stage);
   header.status = wire_status(detection.status);
   header.status_text = status_name(header.status);
   header.latency_s = 1e-3 * milliseconds(Clock::now() - start);
-  return make_handle_list(header, gripper, detection, source.sensor_pose.T_target_cloud());
+  const Eigen::Isometry3f T_target_cloud = source.sensor_pose.T_target_cloud();
+  FileDetection detected{make_handle_list(header, gripper, detection, T_target_cloud),
+                         std::move(detection.segments)};
+  for (SegmentReport& segment : detected.segments) segment.centroid = T_target_cloud * segment.centroid;
+  return detected;
 }
 
 std::string detection_stats(const handle_list_t& list) {

@@ -17,6 +17,7 @@
 #include "client/common/stop_flag.hpp"
 #include "client/common/text.hpp"
 #include "client/detect/detect_options.hpp"
+#include "client/detect/explanation.hpp"
 #include "client/detect/file_detection.hpp"
 
 namespace graspd {
@@ -28,6 +29,7 @@ struct Options {
   std::string format = "text";
   std::size_t max_rows = 10;
   bool empty_rows = false;
+  bool explain = false;
   bool stats = false;
   bool summary = false;
 };
@@ -40,20 +42,30 @@ void add_options(CLI::App& app, Options& o) {
       ->check(CLI::IsMember({"text", "csv", "json"}))
       ->capture_default_str();
   app.add_option("--rows", o.max_rows, "text: handles shown of a file")->capture_default_str();
-  app.add_flag("--empty-rows", o.empty_rows, "csv: a line with id -1 for files without handles");
+  auto* empty_rows =
+      app.add_flag("--empty-rows", o.empty_rows, "csv: a line with id -1 for files without handles");
+  app.add_flag(
+         "--explain", o.explain,
+         "every segment, and why it has no handle; text: a table after the handles; csv: a table of its "
+         "own in place of the handles (frame,seq,segment,object,px,py,pz,points,candidates,handles,"
+         "listed,reason and a count for each check); json: a member, segments")
+      ->excludes(empty_rows);
   app.add_flag("--stats", o.stats,
                "a line a file on standard error: counts, failures by reason, stage times");
   app.add_flag("--summary", o.summary,
                "at the end, on standard error: files by status, latency, handles a file");
 }
 
-void print(const Options& o, const handle_list_t& list) {
+void print(const Options& o, const FileDetection& detected) {
+  const handle_list_t& list = detected.list;
   if (o.format == "csv") {
-    write_output(handle_csv_rows(list, o.empty_rows ? EmptyLists::kWriteRow : EmptyLists::kSkip));
+    write_output(o.explain ? explanation_csv_rows(detected)
+                           : handle_csv_rows(list, o.empty_rows ? EmptyLists::kWriteRow : EmptyLists::kSkip));
   } else if (o.format == "json") {
-    write_output(handle_list_json(list) + '\n');
+    write_output((o.explain ? explanation_json(detected) : handle_list_json(list)) + '\n');
   } else {
-    write_output(handle_list_line(list) + '\n' + handle_table(list, o.max_rows) + '\n');
+    write_output(handle_list_line(list) + '\n' + handle_table(list, o.max_rows) +
+                 (o.explain ? explanation_table(detected) : "") + '\n');
   }
 }
 
@@ -71,16 +83,16 @@ int detect(const CLI::App& app, const Options& o) {
   tbb::task_arena arena(threads);
   AnswerSummary summary;
   int result = kExitOk;
-  if (o.format == "csv") write_output(handle_csv_header());
+  if (o.format == "csv") write_output(o.explain ? explanation_csv_header() : handle_csv_header());
   for (std::size_t i = 0; i < files.size() && !stop_requested(); ++i) {
     try {
       const PointCloud cloud = load_cloud(files[i]).cloud;
       const auto seq = static_cast<std::int64_t>(i);
-      const handle_list_t list =
+      const FileDetection detected =
           arena.execute([&] { return detect_in_cloud(cloud, files[i].stem().string(), seq, source); });
-      summary.add(list);
-      print(o, list);
-      if (o.stats) say_block(plain_line(detection_stats(list)) + '\n');
+      summary.add(detected.list);
+      print(o, detected);
+      if (o.stats) say_block(plain_line(detection_stats(detected.list)) + '\n');
     } catch (const CloudFileError& error) {
       // The other files may be good.
       say(app, error.what());

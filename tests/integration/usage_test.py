@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The graspd authors
 # SPDX-License-Identifier: BSD-3-Clause
 """Every program explains itself, tells its version and refuses what it does not know."""
+import csv
+import json
 import re
 
 from harness import GraspdTest, run_tests
@@ -46,6 +48,27 @@ class Usage(GraspdTest):
     def test_nothing_where_something_is_required(self):
         for name in REQUIRED:
             self.assertNotEqual(self.run_program(name, code=2).err, "")
+
+    def test_detect_explains_every_segment(self):
+        frames = self.simulate(2)
+        lists = [json.loads(line) for line in
+                 self.run_program("graspd-detect", "--explain", "-f", "json", frames).out.splitlines()]
+        self.assertEqual(len(lists), 2)
+        for answer in lists:
+            self.assertEqual(len(answer["segments"]), answer["num_segments"])
+        rows = list(csv.DictReader(self.run_program("graspd-detect", "--explain", "-f", "csv", frames).lines()))
+        segments = [segment for answer in lists for segment in answer["segments"]]
+        self.assertGreater(len(rows), 0)
+        self.assertEqual([(row["reason"], int(row["candidates"]), int(row["listed"])) for row in rows],
+                         [(s["reason"], s["num_candidates"], s["num_listed"]) for s in segments])
+        text = self.run_program("graspd-detect", "--explain", frames).out
+        self.assertEqual(text.count("segments without a handle: "), 2)
+        plain = self.run_program("graspd-detect", "-f", "csv", frames).lines()
+        self.assertEqual(len(plain) - 1, sum(int(row["listed"]) for row in rows))
+
+    def test_the_explanation_has_no_empty_rows(self):
+        program = self.run_program("graspd-detect", "--explain", "--empty-rows", "cloud.pcd", code=2)
+        self.assertIn("--explain", program.err)
 
     def test_option_without_its_value(self):
         for name in PROGRAMS:

@@ -39,7 +39,7 @@ handle_list_t over_the_wire(const PointCloud& sent, const SourceConfig& source) 
 
 TEST(FileDetection, GivesTheSameBitsAsTheWire) {
   SourceConfig source;
-  const handle_list_t from_file = detect_in_cloud(cloud(), "file", 7, source);
+  const handle_list_t from_file = detect_in_cloud(cloud(), "file", 7, source).list;
   const handle_list_t from_wire = over_the_wire(cloud(), source);
   EXPECT_FALSE(from_file.handles.empty());
   EXPECT_EQ(handle_csv_rows(from_file), handle_csv_rows(from_wire));
@@ -51,19 +51,19 @@ TEST(FileDetection, SensorsPoseMovesTheHandles) {
   source.sensor_pose.frame_name = "base";
   source.sensor_pose.position_m = {0.3f, 0.1f, 1.2f};
   source.sensor_pose.rpy_rad = {-2.2, 0.1, 0.7};
-  EXPECT_EQ(handle_csv_rows(detect_in_cloud(cloud(), "file", 7, source)),
+  EXPECT_EQ(handle_csv_rows(detect_in_cloud(cloud(), "file", 7, source).list),
             handle_csv_rows(over_the_wire(cloud(), source)));
 }
 
 TEST(FileDetection, AnEmptyCloudHasItsStatus) {
-  const handle_list_t list = detect_in_cloud(PointCloud{}, "nothing", 0, SourceConfig{});
+  const handle_list_t list = detect_in_cloud(PointCloud{}, "nothing", 0, SourceConfig{}).list;
   EXPECT_EQ(status_name(list.status), "EMPTY_CLOUD");
   EXPECT_EQ(handle_csv_rows(list), "");
   EXPECT_TRUE(detection_stats(list).starts_with("nothing: EMPTY_CLOUD, 0 handles, 0 of 0 points"));
 }
 
 TEST(FileDetection, StatsNameStagesAndReasons) {
-  const std::string stats = detection_stats(detect_in_cloud(cloud(), "file", 0, SourceConfig{}));
+  const std::string stats = detection_stats(detect_in_cloud(cloud(), "file", 0, SourceConfig{}).list);
   EXPECT_NE(stats.find("candidates failed: "), std::string::npos);
   EXPECT_NE(stats.find("normals "), std::string::npos) << stats;
 }
