@@ -13,8 +13,8 @@ namespace {
 
 constexpr float kEndZone = 0.004f;       // points this close to the end are the end [m]
 constexpr float kFaceLength = 0.030f;    // of the face that is carried on [m]
-constexpr float kWallShare = 0.35f;      // of the end's points that must face the jaw
-constexpr float kSeenFree = 0.12f;       // up to this hidden share a place counts as seen to be free
+constexpr float kWallShare = 0.30f;      // of the end's points that must face the jaw
+constexpr float kSeenFree = 0.18f;       // up to this hidden share a place counts as seen to be free
 constexpr float kHidden = 0.30f;         // from this share on as hidden; between the two it must do as both
 constexpr float kMinFaceArea = 0.8e-4f;  // seen, of a face that is carried on [m2]
 constexpr float kMaxRise = 0.50f;      // of a face towards its end: one that curls up is not understood [rad]

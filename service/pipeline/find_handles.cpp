@@ -10,6 +10,8 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <set>
+#include <utility>
 
 #include "service/pipeline/object_outline.hpp"
 
@@ -151,7 +153,7 @@ std::vector<Candidate> most_promising(const std::vector<Candidate>& candidates,
 std::vector<Candidate> prefilter(const SceneView& voxels, const Gripper& gripper,
                                  const HandleCheckConfig& config, const std::vector<Candidate>& candidates,
                                  const ObjectOutlines& outlines, CheckedCandidates& out) {
-  constexpr std::size_t kMostOfAnObject = 12;
+  constexpr std::size_t kMostOfAnObject = 14;
   const Results coarse = check_all(voxels, gripper, config, candidates, &outlines);
   std::vector<Candidate> passed;
   std::vector<float> scores;
@@ -206,7 +208,7 @@ struct CheckedScene {
         point_query(c, kPointCell) {}
 };
 
-/// Searches the objects of one guess at what belongs together. ids: object -> what the ranking knows it as.
+/// Searches the objects of one guess at what belongs together.
 class GuessSearch {
  public:
   GuessSearch(const CheckedScene& scene, const Objects& objects, const Gripper& gripper,
@@ -235,8 +237,8 @@ class GuessSearch {
                 scene.voxel_area_m2,
                 kPointTolerance} {}
 
-  /// wanted: 1 for each object to search. Adds to out; ranked objects are numbered from first_id.
-  void run(const std::vector<std::uint8_t>& wanted, int first_id, CheckedCandidates& out) const {
+  /// wanted: 1 for each object to search. Adds to out.
+  void run(const std::vector<std::uint8_t>& wanted, CheckedCandidates& out) const {
     const HandleSearch search(input_, gripper_, config_.search, wanted);
     std::vector<int> handles_of_object(wanted.size());
     for (const SearchRound round : kSearchRounds) {
@@ -250,7 +252,7 @@ class GuessSearch {
         count(left[k], fine[k].failure, out);
         if (fine[k].failure != Failure::kNone) continue;
         const auto object = static_cast<std::size_t>(left[k].object);
-        out.handles.push_back(scored(fine[k], objects_.center[object], first_id + left[k].object));
+        out.handles.push_back(scored(fine[k], objects_.center[object], left[k].object));
         ++handles_of_object[object];
       }
     }
@@ -285,6 +287,26 @@ std::vector<std::uint8_t> wholes_to_try(const Surfaces& surfaces, const CheckedC
   return several;
 }
 
+/// Adds the best handle of a whole on each of its parts that has none, as that part's.
+void add_for_parts_without(const Surfaces& surfaces, const std::vector<RankedHandle>& of_wholes,
+                           std::vector<RankedHandle>& handles) {
+  const auto part = [&](const RankedHandle& ranked) {
+    return surfaces.objects.of_segment[static_cast<std::size_t>(ranked.handle.segment)];
+  };
+  std::set<std::int32_t> served;
+  for (const RankedHandle& ranked : handles) served.insert(ranked.object);
+  std::map<std::int32_t, RankedHandle> best;
+  for (const RankedHandle& ranked : of_wholes) {
+    if (served.contains(part(ranked))) continue;
+    const auto [it, is_new] = best.try_emplace(part(ranked), ranked);
+    if (!is_new && ranked.handle.score > it->second.handle.score) it->second = ranked;
+  }
+  for (auto& [object, ranked] : best) {
+    ranked.object = object;
+    handles.push_back(ranked);
+  }
+}
+
 }  // namespace
 
 CheckedCandidates find_handles(const PointCloud& cloud, const Surfaces& surfaces, const Gripper& gripper,
@@ -293,10 +315,14 @@ CheckedCandidates find_handles(const PointCloud& cloud, const Surfaces& surfaces
   CheckedCandidates out;
   out.segments = start_reports(surfaces);
   const std::vector<std::uint8_t> all(static_cast<std::size_t>(surfaces.objects.num_objects), 1);
-  GuessSearch(scene, surfaces.objects, gripper, config).run(all, 0, out);
+  GuessSearch(scene, surfaces.objects, gripper, config).run(all, out);
   const std::vector<std::uint8_t> wholes = wholes_to_try(surfaces, out);
-  if (std::any_of(wholes.begin(), wholes.end(), [](std::uint8_t w) { return w != 0; }))
-    GuessSearch(scene, surfaces.wholes, gripper, config).run(wholes, surfaces.objects.num_objects, out);
+  if (std::none_of(wholes.begin(), wholes.end(), [](std::uint8_t w) { return w != 0; })) return out;
+  std::vector<RankedHandle> found = std::move(out.handles);
+  out.handles.clear();
+  GuessSearch(scene, surfaces.wholes, gripper, config).run(wholes, out);
+  add_for_parts_without(surfaces, out.handles, found);
+  out.handles = std::move(found);
   return out;
 }
 

@@ -43,10 +43,10 @@ struct HandleCheckConfig {
   float way_m = 0.100f;
   float support_clearance_m = 0.0f;
   float min_own_share = 0.90f;
-  float min_grip_depth_m = 0.0125f;
+  float min_grip_depth_m = 0.012f;
   float min_contact_area_m2 = 1e-4f;
-  float max_silhouette_angle_deg = 34.0f;
-  float max_wall_angle_deg = 29.0f;
+  float max_silhouette_angle_deg = 35.0f;
+  float max_wall_angle_deg = 30.0f;
   float max_facing_angle_deg = 37.0f;
   float max_misalignment_deg = 50.0f;
   float max_hidden_share = 0.5f;
