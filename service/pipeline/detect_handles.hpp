@@ -26,7 +26,7 @@ struct Detection {
   std::vector<Handle> handles;                           ///< best first, in the cloud's frame
   int points_in = 0;                                     ///< of the cloud
   int points_used = 0;                                   ///< after workspace filter and downsampling
-  int num_candidates = 0;                                ///< gripper poses tried
+  int num_candidates = 0;                                ///< gripper poses accepted or refused
   FailureCounts candidate_failures{};                    ///< by the first check a candidate failed
   std::vector<SegmentReport> segments;                   ///< what became of each
   [[nodiscard]] FailureCounts segment_failures() const;  ///< segments without a handle, by their reason

@@ -12,7 +12,7 @@ struct SegmentReport {
   Eigen::Vector3f centroid = Eigen::Vector3f::Zero();  ///< [m]
   int num_points = 0;                                  ///< voxels
   int object = -1;
-  int num_candidates = 0;    ///< tried on it
+  int num_candidates = 0;    ///< on it, accepted or refused
   int num_handles = 0;       ///< of those that passed all checks; before one per place is kept
   FailureCounts failures{};  ///< of the others, by the first check they failed
 
