@@ -85,8 +85,6 @@ Results check_all(const SceneView& scene, const Gripper& gripper, const HandleCh
       else
         results[i] = outlines ? check_candidate(scene, gripper, config, candidate, own)
                               : check_squarely(scene, gripper, config, candidate, own);
-      if (!outlines && results[i].failure == Failure::kNone)
-        results[i].margins.steady = steadiness(scene, gripper, config, candidate, results[i], own);
     }
   });
   return results;
@@ -133,10 +131,9 @@ void count(const Candidate& candidate, Failure failure, CheckedCandidates& out) 
   ++out.failures[static_cast<std::size_t>(failure)];
 }
 
-/// The most promising candidates of each object, in their order: a few dozen that passed among the voxels
-/// hold the few that are published.
-std::vector<Candidate> most_promising(const std::vector<Candidate>& candidates,
-                                      const std::vector<float>& scores, std::size_t most) {
+/// The best by score of each object, ascending.
+std::vector<std::size_t> best_of_objects(const std::vector<Candidate>& candidates,
+                                         const std::vector<float>& scores, std::size_t most) {
   std::vector<std::size_t> order(candidates.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
@@ -144,19 +141,30 @@ std::vector<Candidate> most_promising(const std::vector<Candidate>& candidates,
   std::map<std::int32_t, std::size_t> taken;
   std::erase_if(order, [&](std::size_t i) { return ++taken[candidates[i].object] > most; });
   std::sort(order.begin(), order.end());
-  std::vector<Candidate> result;
-  for (const std::size_t i : order) result.push_back(candidates[i]);
-  return result;
+  return order;
+}
+
+/// Finds out how steady the results are.
+void check_steadiness(const SceneView& scene, const Gripper& gripper, const HandleCheckConfig& config,
+                      const std::vector<Candidate>& candidates, Results& results) {
+  tbb::enumerable_thread_specific<CheckBuffers> buffers;
+  tbb::parallel_for(std::size_t{0}, results.size(), [&](std::size_t i) {
+    if (results[i].failure != Failure::kNone) return;
+    results[i].margins.steady =
+        steadiness(scene, gripper, config, candidates[i], results[i], buffers.local());
+  });
 }
 
 /// The candidates that pass among the voxels, the most promising ones of each object; counts those that fail.
 std::vector<Candidate> prefilter(const SceneView& voxels, const Gripper& gripper,
                                  const HandleCheckConfig& config, const std::vector<Candidate>& candidates,
                                  const ObjectOutlines& outlines, CheckedCandidates& out) {
-  constexpr std::size_t kMostOfAnObject = 14;
+  constexpr std::size_t kMostOfAnObject = 12;
   const Results coarse = check_all(voxels, gripper, config, candidates, &outlines);
   std::vector<Candidate> passed;
   std::vector<float> scores;
+  passed.reserve(candidates.size());
+  scores.reserve(candidates.size());
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     if (coarse[i].failure != Failure::kNone) {
       count(candidates[i], coarse[i].failure, out);
@@ -165,7 +173,11 @@ std::vector<Candidate> prefilter(const SceneView& voxels, const Gripper& gripper
     passed.push_back(candidates[i]);
     scores.push_back(score(coarse[i].margins));
   }
-  return most_promising(passed, scores, kMostOfAnObject);
+  // A few that passed among the voxels hold the few that are published.
+  std::vector<Candidate> promising;
+  promising.reserve(passed.size());
+  for (const std::size_t i : best_of_objects(passed, scores, kMostOfAnObject)) promising.push_back(passed[i]);
+  return promising;
 }
 
 /// An object with this many handles takes no part in a round.
@@ -247,7 +259,8 @@ class GuessSearch {
         if (handles_of_object[k] >= enough_before(round)) open[k] = 0;
       const std::vector<Candidate> left =
           prefilter(voxels_, gripper_, coarse_check_, search.candidates(round, open), outlines_, out);
-      const Results fine = check_all(points_, gripper_, config_.check, left, nullptr);
+      Results fine = check_all(points_, gripper_, config_.check, left, nullptr);
+      check_steadiness(points_, gripper_, config_.check, left, fine);
       for (std::size_t k = 0; k < left.size(); ++k) {
         count(left[k], fine[k].failure, out);
         if (fine[k].failure != Failure::kNone) continue;

@@ -8,9 +8,9 @@
 namespace graspd {
 
 /// Gripper frame: origin between the jaws on the object's visible surface, x = major axis (across the motion
-/// of the jaws), y = closing axis, z = approach (into the object); right-handed. Where the support or something
-/// else keeps the fingertips from going in to the grasp depth l, the origin is as much above the surface: the
-/// fingertips are always l further along z. In the frame of the cloud unless moved.
+/// of the jaws), y = closing axis, z = approach (into the object); right-handed. Where the support or
+/// something else keeps the fingertips from going in to the grasp depth l, the origin is as much above the
+/// surface: the fingertips are always l further along z. In the frame of the cloud unless moved.
 struct Handle {
   Eigen::Vector3f position = Eigen::Vector3f::Zero();      ///< origin of the gripper frame [m]
   Eigen::Matrix3f rotation = Eigen::Matrix3f::Identity();  ///< columns: major axis, closing axis, approach

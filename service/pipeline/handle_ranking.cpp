@@ -82,6 +82,7 @@ std::vector<Handle> rank_handles(std::vector<RankedHandle> handles, const Handle
   if (chosen.size() > static_cast<std::size_t>(config.max_handles))
     chosen.resize(static_cast<std::size_t>(config.max_handles));
   std::vector<Handle> ranked;
+  ranked.reserve(chosen.size());
   for (const std::size_t i : chosen) ranked.push_back(handles[i].handle);
   return ranked;
 }

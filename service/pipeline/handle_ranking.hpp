@@ -13,7 +13,7 @@ namespace graspd {
 struct HandleRankingConfig {
   int max_handles = 100;
   int max_per_object = 3;
-  float min_score = 0.02f;
+  float min_score = 0.01f;
   float min_further_score = 0.5f;
   float distinct_distance_m = 0.02f;
   float distinct_angle_deg = 30.0f;

@@ -33,11 +33,11 @@ float doubt(float margin, float weight) {
 }  // namespace
 
 float score(const HandleMargins& m) {
-  constexpr float kBestLogOdds = 3.55f;
+  constexpr float kBestLogOdds = 3.7f;
   const float doubts = doubt(m.contact[0]) + doubt(m.contact[1]) + doubt(m.square, 3.9f) +
                        doubt(m.area, 3.3f) + doubt(m.walls, 2.5f) + doubt(m.seen, 0.6f) +
                        doubt(m.thickness, 1.4f) + doubt(m.silhouettes, 1.4f) + doubt(m.grip_depth, 0.5f) +
-                       doubt(m.central, 0.5f) + doubt(m.width, 1.0f) + doubt(m.steady, 1.5f);
+                       doubt(m.central, 1.2f) + doubt(m.width, 1.0f) + doubt(m.steady, 2.5f);
   return 1 / (1 + std::exp(doubts - kBestLogOdds));
 }
 
