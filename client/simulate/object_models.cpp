@@ -52,6 +52,14 @@ ObjectModel block(const char* kind, Rng& rng, const Vector3d& half) {
   return model;
 }
 
+/// An upright cylinder, open at the top.
+ObjectModel vessel(const char* kind, Rng& rng, double radius, double height, double wall) {
+  ObjectModel model = with_part(kind, rng, Cylinder{radius, 0, height});
+  model.solid.cavity = Cylinder{radius - wall, wall, 2 * height};
+  model.footprints.push_back(circle(radius, height));
+  return model;
+}
+
 /// Half a ring of capsules in the plane y = 0, both ends in the wall of the mug.
 void add_mug_handle(ObjectModel& mug, double wall_x, double middle_z, double ring_radius, double thickness) {
   constexpr int kPieces = 8;
@@ -135,9 +143,7 @@ ObjectModel make_mug(Rng& rng) {
   const double radius = rng.uniform(0.035, 0.045);
   const double height = rng.uniform(0.08, 0.11);
   const double wall = rng.uniform(0.004, 0.006);
-  ObjectModel model = with_part("mug", rng, Cylinder{radius, 0, height});
-  model.solid.cavity = Cylinder{radius - wall, wall, 2 * height};
-  model.footprints.push_back(circle(radius, height));
+  ObjectModel model = vessel("mug", rng, radius, height, wall);
   add_mug_handle(model, radius - wall / 2, height / 2, 0.28 * height, rng.uniform(0.004, 0.006));
   return model;
 }
@@ -146,10 +152,7 @@ ObjectModel make_cup(Rng& rng) {
   const double radius = rng.uniform(0.030, 0.042);
   const double height = rng.uniform(1.8, 2.8) * radius;
   const double wall = rng.uniform(0.003, 0.005);
-  ObjectModel model = with_part("cup", rng, Cylinder{radius, 0, height});
-  model.solid.cavity = Cylinder{radius - wall, wall, 2 * height};
-  model.footprints.push_back(circle(radius, height));
-  return model;
+  return vessel("cup", rng, radius, height, wall);
 }
 
 ObjectModel make_jar(Rng& rng) {

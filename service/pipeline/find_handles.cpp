@@ -71,6 +71,14 @@ float steadiness(const SceneView& scene, const Gripper& gripper, const HandleChe
   return 0.25f * static_cast<float>(held);
 }
 
+CheckResult check_thoroughly(const SceneView& scene, const Gripper& gripper, const HandleCheckConfig& config,
+                             const Candidate& candidate, CheckBuffers& buffers) {
+  CheckResult result = check_squarely(scene, gripper, config, candidate, buffers);
+  if (result.failure == Failure::kNone)
+    result.margins.steady = steadiness(scene, gripper, config, candidate, result, buffers);
+  return result;
+}
+
 /// outlines: a first look, which refuses at little cost what is much too wide; null: the thorough one.
 Results check_all(const SceneView& scene, const Gripper& gripper, const HandleCheckConfig& config,
                   const std::vector<Candidate>& candidates, const ObjectOutlines* outlines) {
@@ -84,7 +92,7 @@ Results check_all(const SceneView& scene, const Gripper& gripper, const HandleCh
         results[i].failure = Failure::kTooWide;
       else
         results[i] = outlines ? check_candidate(scene, gripper, config, candidate, own)
-                              : check_squarely(scene, gripper, config, candidate, own);
+                              : check_thoroughly(scene, gripper, config, candidate, own);
     }
   });
   return results;
@@ -100,10 +108,11 @@ std::vector<std::int32_t> spread_to_points(const std::vector<std::int32_t>& of_v
 /// Off the middle the object turns between the jaws: the margin falls off over 6 cm along the major axis.
 RankedHandle scored(const CheckResult& result, const Eigen::Vector3f& center, int object) {
   constexpr float kFalloff = 0.06f;
-  RankedHandle ranked{result.handle, object, result.margins};
+  RankedHandle ranked{result.handle, object};
+  HandleMargins margins = result.margins;
   const float off = result.handle.rotation.col(0).dot(center - result.handle.position) / kFalloff;
-  ranked.margins.central = std::exp(-off * off);
-  ranked.handle.score = score(ranked.margins);
+  margins.central = std::exp(-off * off);
+  ranked.handle.score = score(margins);
   return ranked;
 }
 
@@ -142,17 +151,6 @@ std::vector<std::size_t> best_of_objects(const std::vector<Candidate>& candidate
   std::erase_if(order, [&](std::size_t i) { return ++taken[candidates[i].object] > most; });
   std::sort(order.begin(), order.end());
   return order;
-}
-
-/// Finds out how steady the results are.
-void check_steadiness(const SceneView& scene, const Gripper& gripper, const HandleCheckConfig& config,
-                      const std::vector<Candidate>& candidates, Results& results) {
-  tbb::enumerable_thread_specific<CheckBuffers> buffers;
-  tbb::parallel_for(std::size_t{0}, results.size(), [&](std::size_t i) {
-    if (results[i].failure != Failure::kNone) return;
-    results[i].margins.steady =
-        steadiness(scene, gripper, config, candidates[i], results[i], buffers.local());
-  });
 }
 
 /// The candidates that pass among the voxels, the most promising ones of each object; counts those that fail.
@@ -259,8 +257,7 @@ class GuessSearch {
         if (handles_of_object[k] >= enough_before(round)) open[k] = 0;
       const std::vector<Candidate> left =
           prefilter(voxels_, gripper_, coarse_check_, search.candidates(round, open), outlines_, out);
-      Results fine = check_all(points_, gripper_, config_.check, left, nullptr);
-      check_steadiness(points_, gripper_, config_.check, left, fine);
+      const Results fine = check_all(points_, gripper_, config_.check, left, nullptr);
       for (std::size_t k = 0; k < left.size(); ++k) {
         count(left[k], fine[k].failure, out);
         if (fine[k].failure != Failure::kNone) continue;

@@ -6,7 +6,6 @@
 
 #include "service/pipeline/config_fields.hpp"
 #include "service/pipeline/handle.hpp"
-#include "service/pipeline/handle_score.hpp"
 
 namespace graspd {
 
@@ -38,7 +37,6 @@ struct HandleRankingConfig {
 struct RankedHandle {
   Handle handle;
   int object = -1;
-  HandleMargins margins;  ///< that the score was made of
 };
 
 /// One for each distinct place, max_per_object for each object: its best, and then those that score best with

@@ -101,7 +101,8 @@ HandleSearch::HandleSearch(const SearchInput& input, const Gripper& gripper, con
       seeds_(static_cast<std::size_t>(input.objects.num_objects)) {
   if (!config.seeds) return;
   tbb::parallel_for(std::size_t{0}, rectangle_axes_.size(), [&](std::size_t s) {
-    rectangle_axes_[s] = rectangle_axis(in_.cloud, in_.segments.list[s]);
+    if (wanted[static_cast<std::size_t>(in_.objects.of_segment[s])])
+      rectangle_axes_[s] = rectangle_axis(in_.cloud, in_.segments.list[s]);
   });
   const std::vector<std::vector<std::uint32_t>> points = points_by_object(in_.objects);
   tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t k) {
