@@ -4,145 +4,149 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace graspd {
-
 namespace {
 
-struct Block {
-  static constexpr std::size_t kSize = 32;
-  float a[kSize], f[kSize], z[kSize];
-  int inside[kSize];
-};
+constexpr int kBeyond = std::numeric_limits<int>::max();  // layer of the row after the last
 
 }  // namespace
 
-/// The box, and what takes points to its coordinates.
+void LocalPoints::make_room(std::size_t n) {
+  if (a.size() >= n) return;
+  n = std::max(n, 2 * a.size());
+  a.resize(n);
+  f.resize(n);
+  z.resize(n);
+  index.resize(n);
+}
+
+/// The box, and which cells it meets.
 struct BoxQuery::Box {
-  Eigen::Vector3f origin, min, max;
-  Eigen::Matrix3f to_local;
-  Eigen::Vector3f shift;  // local = to_local * p + shift
+  /// One pair of faces, as rows along x meet them.
+  struct Slab {
+    float per_x;  // 0: the faces are parallel to x
+    float min, max;
+  };
 
-  Box(const Eigen::Vector3f& o, const Eigen::Matrix3f& rotation, const Eigen::Vector3f& lo,
-      const Eigen::Vector3f& hi)
-      : origin(o), min(lo), max(hi), to_local(rotation.transpose()), shift(-(rotation.transpose() * o)) {}
+  Eigen::Vector3f center, reach;  // of the box that is parallel to the axes and holds this one
+  BoxTest test;
+  Slab slabs[3];
 
-  /// Coordinates of n points in the box's frame, and 1 for each inside. Plain scalars and arrays, so that the
-  /// compiler can use vectors.
-  void transform(const float* x, const float* y, const float* z, std::size_t n, Block& out) const {
-    float *a = out.a, *f = out.f, *depth = out.z;
-    int* inside = out.inside;
-    const float r00 = to_local(0, 0), r01 = to_local(0, 1), r02 = to_local(0, 2), t0 = shift[0];
-    const float r10 = to_local(1, 0), r11 = to_local(1, 1), r12 = to_local(1, 2), t1 = shift[1];
-    const float r20 = to_local(2, 0), r21 = to_local(2, 1), r22 = to_local(2, 2), t2 = shift[2];
-    const float a0 = min[0], a1 = max[0], f0 = min[1], f1 = max[1], z0 = min[2], z1 = max[2];
-    for (std::size_t k = 0; k < n; ++k) {
-      a[k] = r00 * x[k] + r01 * y[k] + r02 * z[k] + t0;
-      f[k] = r10 * x[k] + r11 * y[k] + r12 * z[k] + t1;
-      depth[k] = r20 * x[k] + r21 * y[k] + r22 * z[k] + t2;
-      inside[k] = int{a[k] >= a0} & int{a[k] <= a1} & int{f[k] >= f0} & int{f[k] <= f1} &
-                  int{depth[k] >= z0} & int{depth[k] <= z1};
+  /// r: half thickness of the rows that are asked for.
+  Box(const Eigen::Vector3f& origin, const Eigen::Matrix3f& rotation, const Eigen::Vector3f& min,
+      const Eigen::Vector3f& max, float r)
+      : center(origin + rotation * (0.5f * (min + max))), reach(rotation.cwiseAbs() * (0.5f * (max - min))) {
+    const Eigen::Vector3f shift = -(rotation.transpose() * origin);
+    for (int i = 0; i < 3; ++i) {
+      const float x = rotation(0, i), slack = r * (std::abs(rotation(1, i)) + std::abs(rotation(2, i))) + 1e-5f;
+      for (int j = 0; j < 3; ++j) test.to_local[i][j] = rotation(j, i);
+      test.shift[i] = shift[i];
+      test.min[i] = min[i];
+      test.max[i] = max[i];
+      slabs[i] = {std::abs(x) < 1e-4f ? 0 : 1 / x, min[i] - slack - shift[i], max[i] + slack - shift[i]};
     }
   }
 
-  /// Narrows [lo, hi] to the x that a row of half thickness r around the line (y, z) can have inside the box.
-  void clip_row(float y, float z, float r, float& lo, float& hi) const {
+  /// The x that the row around the line (y, z) can have inside the box; empty when the first is larger.
+  [[nodiscard]] std::pair<float, float> x_of_row(float y, float z) const {
+    float lo = center.x() - reach.x(), hi = center.x() + reach.x();
     for (int i = 0; i < 3; ++i) {
-      const float slope = to_local(i, 0), base = to_local(i, 1) * y + to_local(i, 2) * z + shift[i];
-      const float slack = r * (std::abs(to_local(i, 1)) + std::abs(to_local(i, 2))) + 1e-5f;
-      const float from = min[i] - slack - base, to = max[i] + slack - base;
-      if (std::abs(slope) < 1e-4f) {
+      const float base = test.to_local[i][1] * y + test.to_local[i][2] * z;
+      const float from = slabs[i].min - base, to = slabs[i].max - base, per_x = slabs[i].per_x;
+      if (per_x == 0) {
         if (from > 1e-4f * std::abs(lo) + 1e-3f || to < -1e-4f * std::abs(lo) - 1e-3f) hi = lo - 1;
         continue;
       }
-      lo = std::max(lo, slope > 0 ? from / slope : to / slope);
-      hi = std::min(hi, slope > 0 ? to / slope : from / slope);
+      lo = std::max(lo, (per_x > 0 ? from : to) * per_x);
+      hi = std::min(hi, (per_x > 0 ? to : from) * per_x);
     }
+    return {lo, hi};
   }
 };
 
-BoxQuery::BoxQuery(const PointCloud& cloud, float cell_m) : order_(order_by_cell(cloud, cell_m)) {
-  const std::size_t n = cloud.size();
-  x_.resize(n);
-  y_.resize(n);
-  z_.resize(n);
-  for (std::size_t k = 0; k < n; ++k) {
-    const std::uint32_t i = order_.points[k];
-    x_[k] = cloud.x[i];
-    y_[k] = cloud.y[i];
-    z_[k] = cloud.z[i];
+BoxQuery::BoxQuery(const PointCloud& cloud, float cell_m)
+    : order_(order_by_cell(cloud, cell_m)), points_(cloud, order_) {
+  std::int64_t end_of_row = std::numeric_limits<std::int64_t>::min();
+  for (std::size_t c = 0; c < order_.num_cells(); ++c) {
+    const std::int64_t key = order_.keys[c];
+    if (key < end_of_row) continue;
+    const std::int64_t z = key / order_.layer, y = key % order_.layer / order_.row;
+    rows_.push_back({static_cast<int>(z) + order_.min_cell.z(), static_cast<int>(y) + order_.min_cell.y(), c});
+    end_of_row = z * order_.layer + (y + 1) * order_.row;
   }
+  rows_.push_back({kBeyond, 0, order_.num_cells()});
+}
+
+PointRange BoxQuery::points_of_row(const Box& box, std::size_t r) const {
+  const Row& row = rows_[r];
+  const float cell = order_.cell_m;
+  const auto [x0, x1] =
+      box.x_of_row((static_cast<float>(row.y) + 0.5f) * cell, (static_cast<float>(row.z) + 0.5f) * cell);
+  if (x0 > x1) return {};
+  const int last_x = order_.min_cell.x() + static_cast<int>(order_.row) - 1;
+  const int from_x = std::max(order_.min_cell.x(), cell_index(x0, 1 / cell));
+  const int to_x = std::min(last_x, cell_index(x1, 1 / cell));
+  if (from_x > to_x) return {};
+  const auto key = [this](std::size_t c) { return order_.keys.begin() + static_cast<std::ptrdiff_t>(c); };
+  const auto end_of_row = key(rows_[r + 1].first_cell);
+  const auto begin = std::lower_bound(key(row.first_cell), end_of_row, order_.key({from_x, row.y, row.z}));
+  const std::int64_t last = order_.key({to_x, row.y, row.z});
+  auto end = begin;
+  while (end != end_of_row && *end <= last) ++end;
+  return points_.range(order_.starts[static_cast<std::size_t>(begin - order_.keys.begin())],
+                       order_.starts[static_cast<std::size_t>(end - order_.keys.begin())]);
 }
 
 template <class Visit>
 void BoxQuery::for_each_range(const Box& box, Visit visit) const {
+  if (rows_.empty()) return;
   const float cell = order_.cell_m;
-  const Eigen::Vector3f center = box.origin + box.to_local.transpose() * (0.5f * (box.min + box.max));
-  const Eigen::Vector3f reach = box.to_local.transpose().cwiseAbs() * (0.5f * (box.max - box.min));
-  const Eigen::Vector3i lo = ((center - reach) / cell).array().floor().cast<int>();
-  const Eigen::Vector3i hi = ((center + reach) / cell).array().floor().cast<int>();
-  const Eigen::Vector3i first = lo.cwiseMax(order_.min_cell);
-  const int last_y =
-      std::min<int>(hi.y(), order_.min_cell.y() + static_cast<int>(order_.layer / order_.row) - 1);
-  const int last_x = std::min<int>(hi.x(), order_.min_cell.x() + static_cast<int>(order_.row) - 1);
-  for (int cz = first.z(); cz <= hi.z(); ++cz)
-    for (int cy = first.y(); cy <= last_y; ++cy) {
-      float x0 = center.x() - reach.x(), x1 = center.x() + reach.x();
-      box.clip_row((static_cast<float>(cy) + 0.5f) * cell, (static_cast<float>(cz) + 0.5f) * cell,
-                   0.5f * cell, x0, x1);
-      if (x0 > x1) continue;
-      const int from_x = std::max(first.x(), static_cast<int>(std::floor(x0 / cell)));
-      const int to_x = std::min(last_x, static_cast<int>(std::floor(x1 / cell)));
-      if (from_x > to_x) continue;
-      const auto begin =
-          std::lower_bound(order_.keys.begin(), order_.keys.end(), order_.key({from_x, cy, cz}));
-      const std::int64_t last = order_.key({to_x, cy, cz});
-      auto end = begin;
-      while (end != order_.keys.end() && *end <= last) ++end;
-      if (begin == end) continue;
-      if (!visit(order_.starts[static_cast<std::size_t>(begin - order_.keys.begin())],
-                 order_.starts[static_cast<std::size_t>(end - order_.keys.begin())]))
-        return;
+  const Eigen::Vector3f from = (box.center - box.reach) / cell, to = (box.center + box.reach) / cell;
+  const Eigen::Vector3i lo = from.array().floor().cast<int>(), hi = to.array().floor().cast<int>();
+  const auto first_from = [this](auto row, int z, int y) {
+    return std::lower_bound(row, rows_.end(), Row{z, y, 0}, [](const Row& a, const Row& b) {
+      return a.z != b.z ? a.z < b.z : a.y < b.y;
+    });
+  };
+  auto row = first_from(rows_.begin(), lo.z(), lo.y());
+  while (row->z <= hi.z()) {
+    if (row->y < lo.y() || row->y > hi.y()) {
+      row = first_from(row, row->y > hi.y() ? row->z + 1 : row->z, lo.y());
+      continue;
     }
+    const PointRange points = points_of_row(box, static_cast<std::size_t>(row - rows_.begin()));
+    if (points.size > 0 && !visit(points)) return;
+    ++row;
+  }
 }
 
 void BoxQuery::find(const Eigen::Vector3f& origin, const Eigen::Matrix3f& rotation,
                     const Eigen::Vector3f& min, const Eigen::Vector3f& max, LocalPoints& out) const {
-  const Box box(origin, rotation, min, max);
-  Block block;
-  std::size_t n = 0;
-  for_each_range(box, [&](std::size_t from, std::size_t to) {
-    if (out.a.size() < n + (to - from)) out.resize(std::max(2 * out.a.size(), n + (to - from)));
-    for (; from < to; from += Block::kSize) {
-      const std::size_t size = std::min(Block::kSize, to - from);
-      box.transform(x_.data() + from, y_.data() + from, z_.data() + from, size, block);
-      for (std::size_t k = 0; k < size; ++k) {
-        out.a[n] = block.a[k];
-        out.f[n] = block.f[k];
-        out.z[n] = block.z[k];
-        out.index[n] = order_.points[from + k];
-        n += static_cast<std::size_t>(block.inside[k]);
-      }
-    }
+  const Box box(origin, rotation, min, max, 0.5f * order_.cell_m);
+  const PointKernels& kernels = point_kernels();
+  std::size_t& n = out.size_ = 0;
+  for_each_range(box, [&](const PointRange& points) {
+    out.make_room(n + points.size + kPointPadding);
+    n += kernels.keep_inside(box.test, points,
+                             {out.a.data() + n, out.f.data() + n, out.z.data() + n, out.index.data() + n});
     return true;
   });
-  out.resize(n);
 }
 
 bool BoxQuery::has_more(const Eigen::Vector3f& origin, const Eigen::Matrix3f& rotation,
                         const Eigen::Vector3f& min, const Eigen::Vector3f& max, int limit) const {
-  const Box box(origin, rotation, min, max);
-  Block block;
-  int n = 0;
-  for_each_range(box, [&](std::size_t from, std::size_t to) {
-    for (; from < to; from += Block::kSize) {
-      const std::size_t size = std::min(Block::kSize, to - from);
-      box.transform(x_.data() + from, y_.data() + from, z_.data() + from, size, block);
-      for (std::size_t k = 0; k < size; ++k) n += block.inside[k];
-    }
-    return n <= limit;
+  const Box box(origin, rotation, min, max, 0.5f * order_.cell_m);
+  const PointKernels& kernels = point_kernels();
+  const auto most = static_cast<std::size_t>(limit);
+  std::size_t n = 0;
+  for_each_range(box, [&](const PointRange& points) {
+    n += kernels.count_inside(box.test, points);
+    return n <= most;
   });
-  return n > limit;
+  return n > most;
 }
 
 }  // namespace graspd

@@ -13,17 +13,17 @@
 namespace graspd {
 
 /// Points in gripper coordinates [m]: a along the major axis, f along the closing axis, z along the approach.
+/// Kept from query to query, so that its memory is.
 struct LocalPoints {
-  std::vector<float> a, f, z;
-  std::vector<std::uint32_t> index;  ///< into the cloud
+  std::vector<float> a, f, z;        ///< the first size() of them
+  std::vector<std::uint32_t> index;  ///< into the cloud; the same
 
-  [[nodiscard]] std::size_t size() const { return a.size(); }
-  void resize(std::size_t n) {
-    a.resize(n);
-    f.resize(n);
-    z.resize(n);
-    index.resize(n);
-  }
+  [[nodiscard]] std::size_t size() const { return size_; }
+
+ private:
+  friend class BoxQuery;
+  void make_room(std::size_t n);
+  std::size_t size_ = 0;
 };
 
 class BoxQuery {
@@ -43,13 +43,20 @@ class BoxQuery {
 
  private:
   struct Box;
-  /// Calls visit(from, to) with ranges of positions that hold all points of the box; it returns false to
-  /// stop.
+  /// Cells with the same y and z, which follow one another.
+  struct Row {
+    int z, y;
+    std::size_t first_cell;
+  };
+  /// The part of a row that may lie in the box.
+  [[nodiscard]] PointRange points_of_row(const Box& box, std::size_t row) const;
+  /// Calls visit(points) with ranges that hold all points of the box; it returns false to stop.
   template <class Visit>
   void for_each_range(const Box& box, Visit visit) const;
 
   CellOrder order_;
-  std::vector<float> x_, y_, z_;  // in the order of the cells
+  std::vector<Row> rows_;  // by z, then y; one more at the end
+  CellPoints points_;
 };
 
 }  // namespace graspd

@@ -34,21 +34,25 @@ void radix_sort(std::vector<Entry>& entries, int num_bits) {
   }
 }
 
-/// floor(coordinate * per_cell) by truncation, which unlike std::floor needs no call and goes into vectors.
-int cell_index(float coordinate, float per_cell) {
-  const float scaled = coordinate * per_cell;
-  const int truncated = static_cast<int>(scaled);
-  return truncated - (static_cast<float>(truncated) > scaled ? 1 : 0);
-}
-
+/// Number of cells on an axis, with one to spare at either end; min: the first.
 int cell_range(const std::vector<float>& v, float per_cell, int& min) {
-  float low = v.front(), high = v.front();
-  for (const float c : v) {
-    low = std::min(low, c);
-    high = std::max(high, c);
+  // Side by side, because the compiler may not reorder comparisons of its own accord.
+  constexpr std::size_t kLanes = 16;
+  std::array<float, kLanes> low, high;
+  low.fill(v.front());
+  high.fill(v.front());
+  std::size_t i = 0;
+  for (; i + kLanes <= v.size(); i += kLanes)
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      low[k] = std::min(low[k], v[i + k]);
+      high[k] = std::max(high[k], v[i + k]);
+    }
+  for (; i < v.size(); ++i) {
+    low[0] = std::min(low[0], v[i]);
+    high[0] = std::max(high[0], v[i]);
   }
-  min = cell_index(low, per_cell) - 1;
-  return cell_index(high, per_cell) + 2 - min;
+  min = cell_index(*std::min_element(low.begin(), low.end()), per_cell) - 1;
+  return cell_index(*std::max_element(high.begin(), high.end()), per_cell) + 2 - min;
 }
 
 }  // namespace
@@ -88,6 +92,22 @@ CellOrder order_by_cell(const PointCloud& cloud, float cell_m) {
   }
   order.starts.push_back(static_cast<std::uint32_t>(n));
   return order;
+}
+
+CellPoints::CellPoints(const PointCloud& cloud, const CellOrder& order)
+    : x_(cloud.size() + kPointPadding),
+      y_(cloud.size() + kPointPadding),
+      z_(cloud.size() + kPointPadding),
+      index_(cloud.size() + kPointPadding) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cloud.size(), 8192), [&](const auto& range) {
+    for (std::size_t k = range.begin(); k != range.end(); ++k) {
+      const std::uint32_t i = order.points[k];
+      x_[k] = cloud.x[i];
+      y_[k] = cloud.y[i];
+      z_[k] = cloud.z[i];
+      index_[k] = i;
+    }
+  });
 }
 
 }  // namespace graspd

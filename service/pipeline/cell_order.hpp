@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "service/pipeline/point_cloud.hpp"
+#include "service/pipeline/point_kernels.hpp"
 
 namespace graspd {
 
@@ -32,7 +33,30 @@ struct CellOrder {
   }
 };
 
+/// floor(coordinate * per_cell) by truncation, which unlike std::floor needs no call and goes into vectors.
+[[nodiscard]] inline int cell_index(float coordinate, float per_cell) {
+  const float scaled = coordinate * per_cell;
+  const int truncated = static_cast<int>(scaled);
+  return truncated - (static_cast<float>(truncated) > scaled ? 1 : 0);
+}
+
 /// All points must be finite, and the cloud's extent less than 2^20 cells on each axis.
 [[nodiscard]] CellOrder order_by_cell(const PointCloud& cloud, float cell_m);
+
+/// The points of a cloud in the order of its cells, for the kernels.
+class CellPoints {
+ public:
+  CellPoints() = default;
+  CellPoints(const PointCloud& cloud, const CellOrder& order);
+
+  /// Those at positions [from, to) of the order.
+  [[nodiscard]] PointRange range(std::size_t from, std::size_t to) const {
+    return {x_.data() + from, y_.data() + from, z_.data() + from, index_.data() + from, to - from};
+  }
+
+ private:
+  std::vector<float> x_, y_, z_;  // padded as the kernels want it
+  std::vector<std::uint32_t> index_;
+};
 
 }  // namespace graspd

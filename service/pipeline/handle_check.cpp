@@ -135,11 +135,13 @@ void Check::collect_between() {
     z.push_back(kz);
   }
   const std::size_t skip = std::min(f.size() / 4, std::max<std::size_t>(1, f.size() / 200));
-  std::sort(f.begin(), f.end());
-  std::sort(z.begin(), z.end());
-  end_[0] = f[skip];
-  end_[1] = f[f.size() - 1 - skip];
-  top_ = z[skip];
+  const auto nth = [](std::vector<float>& v, std::size_t n) {
+    std::nth_element(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(n), v.end());
+    return v[n];
+  };
+  end_[0] = nth(f, skip);
+  end_[1] = nth(f, f.size() - 1 - skip);
+  top_ = nth(z, skip);
 }
 
 Failure Check::check_silhouettes() {
@@ -229,7 +231,7 @@ void Check::set_width_from(const Contact& low, const Contact& high) {
   const float center = 0.5f * (low.reach_m + high.reach_m);
   handle_.width_m = high.reach_m - low.reach_m;
   handle_.position += handle_.rotation.col(1) * center;
-  for (float& f : local_.f) f -= center;
+  for (std::size_t k = 0; k < local_.size(); ++k) local_.f[k] -= center;
   end_[0] -= center;
   end_[1] -= center;
 }

@@ -12,83 +12,48 @@
 namespace graspd {
 namespace {
 
-/// Points that can be neighbours of those in one cell, copied together so that distances run over plain
-/// arrays.
-struct Candidates {
-  std::vector<float> x, y, z;
-  std::vector<std::uint32_t> point;
-  std::vector<float> distance;       // squared, to the point that neighbours are looked for
-  std::vector<std::uint32_t> found;  // those within the radius
-
-  void clear() {
-    x.clear();
-    y.clear();
-    z.clear();
-    point.clear();
-  }
-  void add(const PointCloud& cloud, std::uint32_t i) {
-    x.push_back(cloud.x[i]);
-    y.push_back(cloud.y[i]);
-    z.push_back(cloud.z[i]);
-    point.push_back(i);
-  }
-};
-
 /// The nine rows of three cells around a cell. Keys ascend from cell to cell, so that each row's position
 /// only moves on.
 class RowCursor {
  public:
-  RowCursor(const CellOrder& order, std::size_t first_cell) : order_(order) {
+  RowCursor(const CellOrder& order, const CellPoints& points, std::size_t first_cell)
+      : order_(order), points_(points) {
     std::size_t i = 0;
     for (std::int64_t dz = -1; dz <= 1; ++dz)
       for (std::int64_t dy = -1; dy <= 1; ++dy) offsets_[i++] = dz * order.layer + dy * order.row;
     for (i = 0; i < offsets_.size(); ++i) {
       const std::int64_t key = order.keys[first_cell] + offsets_[i] - 1;
-      positions_[i] = std::lower_bound(order.keys.begin(), order.keys.end(), key) - order.keys.begin();
+      positions_[i] = static_cast<std::size_t>(
+          std::lower_bound(order.keys.begin(), order.keys.end(), key) - order.keys.begin());
     }
   }
 
-  /// Collects the points around a cell; cells must ascend from call to call.
-  void collect(const PointCloud& cloud, std::size_t cell, Candidates& out) {
-    out.clear();
-    const auto end = static_cast<std::ptrdiff_t>(order_.num_cells());
+  /// Looks up the points around a cell; cells must ascend from call to call. Returns how many they are.
+  std::size_t move_to(std::size_t cell) {
+    rows_.clear();
+    std::size_t num_points = 0;
     for (std::size_t i = 0; i < offsets_.size(); ++i) {
       const std::int64_t center = order_.keys[cell] + offsets_[i];
-      std::ptrdiff_t& p = positions_[i];
-      while (p < end && order_.keys[static_cast<std::size_t>(p)] < center - 1) ++p;
-      for (std::ptrdiff_t c = p; c < end && order_.keys[static_cast<std::size_t>(c)] <= center + 1; ++c)
-        for (const std::uint32_t point : order_.cell(static_cast<std::size_t>(c))) out.add(cloud, point);
+      std::size_t& p = positions_[i];
+      while (p < order_.num_cells() && order_.keys[p] < center - 1) ++p;
+      std::size_t end = p;
+      while (end < order_.num_cells() && order_.keys[end] <= center + 1) ++end;
+      if (p == end) continue;
+      rows_.push_back(points_.range(order_.starts[p], order_.starts[end]));
+      num_points += rows_.back().size;
     }
+    return num_points;
   }
+
+  [[nodiscard]] const std::vector<PointRange>& rows() const { return rows_; }
 
  private:
   const CellOrder& order_;
+  const CellPoints& points_;
   std::array<std::int64_t, 9> offsets_{};
-  std::array<std::ptrdiff_t, 9> positions_{};
+  std::array<std::size_t, 9> positions_{};
+  std::vector<PointRange> rows_;
 };
-
-/// Appends to the list all candidates within the radius of a point. The distances have a loop of their own,
-/// because the compiler can use vectors for that one alone.
-void append_neighbors(const Eigen::Vector3f& s, float radius_squared, Candidates& candidates,
-                      std::vector<std::uint32_t>& list) {
-  const std::size_t n = candidates.point.size();
-  candidates.distance.resize(n);
-  candidates.found.resize(n);
-  const float sx = s.x(), sy = s.y(), sz = s.z();
-  const float *x = candidates.x.data(), *y = candidates.y.data(), *z = candidates.z.data();
-  float* distance = candidates.distance.data();
-  for (std::size_t j = 0; j < n; ++j) {
-    const float dx = x[j] - sx, dy = y[j] - sy, dz = z[j] - sz;
-    distance[j] = dx * dx + dy * dy + dz * dz;
-  }
-  const std::uint32_t* point = candidates.point.data();
-  std::uint32_t *begin = candidates.found.data(), *end = begin;
-  for (std::size_t j = 0; j < n; ++j) {
-    *end = point[j];
-    end += distance[j] <= radius_squared ? 1 : 0;
-  }
-  list.insert(list.end(), begin, end);
-}
 
 /// The points of a cell whose neighbourhoods are wanted.
 void wanted_points(std::span<const std::uint32_t> cell, const std::vector<std::uint8_t>& skip,
@@ -105,35 +70,36 @@ Neighborhoods find_neighborhoods(const PointCloud& cloud, const NeighborhoodsCon
   Neighborhoods result;
   result.lists_.resize(cloud.size());
   const CellOrder order = order_by_cell(cloud, config.radius_m);
+  const CellPoints points(cloud, order);
   constexpr std::size_t kCellsPerChunk = 128;
   const std::size_t num_chunks = (order.num_cells() + kCellsPerChunk - 1) / kCellsPerChunk;
   result.storage_.resize(num_chunks);
   const float radius_squared = config.radius_m * config.radius_m;
+  const PointKernels& kernels = point_kernels();
 
   tbb::parallel_for(std::size_t{0}, num_chunks, [&](std::size_t chunk) {
     const std::size_t begin = chunk * kCellsPerChunk;
     const std::size_t end = std::min(begin + kCellsPerChunk, order.num_cells());
-    RowCursor rows(order, begin);
-    Candidates candidates;
+    RowCursor around(order, points, begin);
     std::vector<std::uint32_t>& list = result.storage_[chunk];
     std::vector<std::uint32_t> wanted, done;
-    std::vector<std::size_t> ends;
+    std::vector<std::size_t> ends{0};
     for (std::size_t c = begin; c < end; ++c) {
       wanted_points(order.cell(c), skip, wanted);
       if (wanted.empty()) continue;
-      rows.collect(cloud, c, candidates);
+      const std::size_t most = wanted.size() * around.move_to(c) + kPointPadding;
+      if (list.size() < ends.back() + most) list.resize(std::max(2 * list.size(), ends.back() + most));
       for (const std::uint32_t i : wanted) {
-        append_neighbors(cloud.point(i), radius_squared, candidates, list);
+        std::size_t n = ends.back();
+        for (const PointRange& row : around.rows())
+          n += kernels.keep_near({cloud.x[i], cloud.y[i], cloud.z[i]}, radius_squared, row, list.data() + n);
         done.push_back(i);
-        ends.push_back(list.size());
+        ends.push_back(n);
       }
     }
     // Only now, because the list moves while it grows.
-    std::size_t first = 0;
-    for (std::size_t k = 0; k < done.size(); ++k) {
-      result.lists_[done[k]] = {list.data() + first, list.data() + ends[k]};
-      first = ends[k];
-    }
+    for (std::size_t k = 0; k < done.size(); ++k)
+      result.lists_[done[k]] = {list.data() + ends[k], list.data() + ends[k + 1]};
   });
   return result;
 }

@@ -24,7 +24,7 @@ struct Profile {
     own.assign(bins, 0);
     all.assign(bins, 0);
   }
-  [[nodiscard]] int bin(float f) const { return static_cast<int>(std::floor((f - first_m) / kBin)); }
+  [[nodiscard]] int bin(float f) const { return cell_index((f - first_m) / kBin, 1); }
   [[nodiscard]] float at(int bin) const { return first_m + kBin * static_cast<float>(bin); }
   [[nodiscard]] int size() const { return static_cast<int>(all.size()); }
 };
@@ -165,8 +165,10 @@ Failure settle_top(const SceneView& scene, const Gripper& g, CheckBuffers& buffe
 }
 
 void shift(LocalPoints& local, float f, float z) {
-  for (float& v : local.f) v -= f;
-  for (float& v : local.z) v -= z;
+  for (std::size_t k = 0; k < local.size(); ++k) {
+    local.f[k] -= f;
+    local.z[k] -= z;
+  }
 }
 
 }  // namespace
@@ -181,7 +183,7 @@ Failure fit_patch(const SceneView& scene, const Gripper& gripper, const HandleCh
     scene.query.find(
         candidate.position, candidate.rotation, {-0.5f * g.finger_thickness_m, -reach, z - above},
         {0.5f * g.finger_thickness_m, reach, z + g.grasp_depth_m + 2 * kTopWindow}, buffers.local);
-    buffers.own.resize(buffers.local.size());
+    if (buffers.own.size() < buffers.local.size()) buffers.own.resize(buffers.local.a.size());
     for (std::size_t k = 0; k < buffers.local.size(); ++k)
       buffers.own[k] = scene.object[buffers.local.index[k]] == candidate.object ? 1 : 0;
   };

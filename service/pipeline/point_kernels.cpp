@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/pipeline/point_kernels.hpp"
+
+#include <algorithm>
+
+namespace graspd {
+namespace {
+
+constexpr std::size_t kBlock = 32;
+
+struct Block {
+  float a[kBlock], f[kBlock], z[kBlock];
+  int inside[kBlock];
+};
+
+/// Plain scalars and arrays, so that the compiler can use the vectors that every processor has.
+void transform(const BoxTest& box, const float* x, const float* y, const float* z, std::size_t n,
+               Block& out) {
+  const auto& m = box.to_local;
+  const float r00 = m[0][0], r01 = m[0][1], r02 = m[0][2], t0 = box.shift[0];
+  const float r10 = m[1][0], r11 = m[1][1], r12 = m[1][2], t1 = box.shift[1];
+  const float r20 = m[2][0], r21 = m[2][1], r22 = m[2][2], t2 = box.shift[2];
+  const float a0 = box.min[0], a1 = box.max[0], f0 = box.min[1], f1 = box.max[1], z0 = box.min[2],
+              z1 = box.max[2];
+  float *a = out.a, *f = out.f, *depth = out.z;
+  int* inside = out.inside;
+  for (std::size_t k = 0; k < n; ++k) {
+    a[k] = r00 * x[k] + r01 * y[k] + r02 * z[k] + t0;
+    f[k] = r10 * x[k] + r11 * y[k] + r12 * z[k] + t1;
+    depth[k] = r20 * x[k] + r21 * y[k] + r22 * z[k] + t2;
+    inside[k] = int{a[k] >= a0} & int{a[k] <= a1} & int{f[k] >= f0} & int{f[k] <= f1} & int{depth[k] >= z0} &
+                int{depth[k] <= z1};
+  }
+}
+
+std::size_t keep_inside(const BoxTest& box, const PointRange& points, const LocalOutput& out) {
+  Block block;
+  std::size_t n = 0;
+  for (std::size_t from = 0; from < points.size; from += kBlock) {
+    const std::size_t size = std::min(kBlock, points.size - from);
+    transform(box, points.x + from, points.y + from, points.z + from, size, block);
+    for (std::size_t k = 0; k < size; ++k) {
+      out.a[n] = block.a[k];
+      out.f[n] = block.f[k];
+      out.z[n] = block.z[k];
+      out.index[n] = points.index[from + k];
+      n += static_cast<std::size_t>(block.inside[k]);
+    }
+  }
+  return n;
+}
+
+std::size_t count_inside(const BoxTest& box, const PointRange& points) {
+  Block block;
+  int n = 0;
+  for (std::size_t from = 0; from < points.size; from += kBlock) {
+    const std::size_t size = std::min(kBlock, points.size - from);
+    transform(box, points.x + from, points.y + from, points.z + from, size, block);
+    for (std::size_t k = 0; k < size; ++k) n += block.inside[k];
+  }
+  return static_cast<std::size_t>(n);
+}
+
+std::size_t keep_near(const float (&p)[3], float distance_squared, const PointRange& points,
+                      std::uint32_t* out) {
+  const float px = p[0], py = p[1], pz = p[2];
+  float distance[kBlock];
+  std::uint32_t* end = out;
+  for (std::size_t from = 0; from < points.size; from += kBlock) {
+    const std::size_t size = std::min(kBlock, points.size - from);
+    const float *x = points.x + from, *y = points.y + from, *z = points.z + from;
+    for (std::size_t k = 0; k < size; ++k) {
+      const float dx = x[k] - px, dy = y[k] - py, dz = z[k] - pz;
+      distance[k] = dx * dx + dy * dy + dz * dz;
+    }
+    for (std::size_t k = 0; k < size; ++k) {
+      *end = points.index[from + k];
+      end += distance[k] <= distance_squared ? 1 : 0;
+    }
+  }
+  return static_cast<std::size_t>(end - out);
+}
+
+}  // namespace
+
+const PointKernels& portable_kernels() {
+  static constexpr PointKernels kKernels{keep_inside, count_inside, keep_near};
+  return kKernels;
+}
+
+const PointKernels& point_kernels() {
+  static const PointKernels& chosen = avx2_kernels() ? *avx2_kernels() : portable_kernels();
+  return chosen;
+}
+
+}  // namespace graspd

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The loops over points that most of the time goes into. Each has a portable form and one for processors with
+// AVX2, which is chosen at run time; both do the same operations on each point in the same order, so that the
+// results are the same to the bit.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+namespace graspd {
+
+/// Points in order of a grid's cells. Arrays must be readable for kPointPadding entries beyond the last that
+/// is asked for.
+struct PointRange {
+  const float *x, *y, *z;      ///< [m]
+  const std::uint32_t* index;  ///< into the cloud
+  std::size_t size;
+};
+inline constexpr std::size_t kPointPadding = 8;
+
+/// A box, and what takes points to its coordinates: local = to_local p + shift.
+struct BoxTest {
+  float to_local[3][3];  ///< rows
+  float shift[3], min[3], max[3];
+};
+
+/// Where points in a box go, in its coordinates. There must be room for size + kPointPadding entries.
+struct LocalOutput {
+  float *a, *f, *z;
+  std::uint32_t* index;
+};
+
+struct PointKernels {
+  /// Writes the points inside, in their order; returns their number.
+  std::size_t (*keep_inside)(const BoxTest& box, const PointRange& points, const LocalOutput& out);
+  /// Number of points inside.
+  std::size_t (*count_inside)(const BoxTest& box, const PointRange& points);
+  /// Writes the indices of the points within the distance of p, in their order; returns their number. There
+  /// must be room for size + kPointPadding.
+  std::size_t (*keep_near)(const float (&p)[3], float distance_squared, const PointRange& points,
+                           std::uint32_t* out);
+};
+
+[[nodiscard]] const PointKernels& portable_kernels();
+/// Null where the processor or the compiler's target has no AVX2.
+[[nodiscard]] const PointKernels* avx2_kernels();
+/// The faster of what is there.
+[[nodiscard]] const PointKernels& point_kernels();
+
+}  // namespace graspd
