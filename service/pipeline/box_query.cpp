@@ -14,13 +14,29 @@ constexpr int kBeyond = std::numeric_limits<int>::max();  // layer of the row af
 
 }  // namespace
 
-void LocalPoints::make_room(std::size_t n) {
-  if (a.size() >= n) return;
-  n = std::max(n, 2 * a.size());
-  a.resize(n);
-  f.resize(n);
-  z.resize(n);
-  index.resize(n);
+void LocalPoints::add_inside(const BoxTest& box, const PointRange& points) {
+  if (const std::size_t most = size_ + points.size + kPointPadding; a.size() < most) {
+    const std::size_t room = std::max(most, 2 * a.size());
+    a.resize(room);
+    f.resize(room);
+    z.resize(room);
+    index.resize(room);
+  }
+  size_ += point_kernels().keep_inside(
+      box, points, {a.data() + size_, f.data() + size_, z.data() + size_, index.data() + size_});
+}
+
+BoxTest box_test(const Eigen::Vector3f& origin, const Eigen::Matrix3f& rotation, const Eigen::Vector3f& min,
+                 const Eigen::Vector3f& max) {
+  const Eigen::Vector3f shift = -(rotation.transpose() * origin);
+  BoxTest test;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) test.to_local[i][j] = rotation(j, i);
+    test.shift[i] = shift[i];
+    test.min[i] = min[i];
+    test.max[i] = max[i];
+  }
+  return test;
 }
 
 /// The box, and which cells it meets.
@@ -38,15 +54,13 @@ struct BoxQuery::Box {
   /// r: half thickness of the rows that are asked for.
   Box(const Eigen::Vector3f& origin, const Eigen::Matrix3f& rotation, const Eigen::Vector3f& min,
       const Eigen::Vector3f& max, float r)
-      : center(origin + rotation * (0.5f * (min + max))), reach(rotation.cwiseAbs() * (0.5f * (max - min))) {
-    const Eigen::Vector3f shift = -(rotation.transpose() * origin);
+      : center(origin + rotation * (0.5f * (min + max))),
+        reach(rotation.cwiseAbs() * (0.5f * (max - min))),
+        test(box_test(origin, rotation, min, max)) {
     for (int i = 0; i < 3; ++i) {
       const float x = rotation(0, i), slack = r * (std::abs(rotation(1, i)) + std::abs(rotation(2, i))) + 1e-5f;
-      for (int j = 0; j < 3; ++j) test.to_local[i][j] = rotation(j, i);
-      test.shift[i] = shift[i];
-      test.min[i] = min[i];
-      test.max[i] = max[i];
-      slabs[i] = {std::abs(x) < 1e-4f ? 0 : 1 / x, min[i] - slack - shift[i], max[i] + slack - shift[i]};
+      slabs[i] = {std::abs(x) < 1e-4f ? 0 : 1 / x, min[i] - slack - test.shift[i],
+                  max[i] + slack - test.shift[i]};
     }
   }
 
@@ -68,7 +82,7 @@ struct BoxQuery::Box {
 };
 
 BoxQuery::BoxQuery(const PointCloud& cloud, float cell_m)
-    : order_(order_by_cell(cloud, cell_m)), points_(cloud, order_) {
+    : order_(order_by_cell(cloud, cell_m)), points_(cloud, order_.points) {
   std::int64_t end_of_row = std::numeric_limits<std::int64_t>::min();
   for (std::size_t c = 0; c < order_.num_cells(); ++c) {
     const std::int64_t key = order_.keys[c];
@@ -126,12 +140,9 @@ void BoxQuery::for_each_range(const Box& box, Visit visit) const {
 void BoxQuery::find(const Eigen::Vector3f& origin, const Eigen::Matrix3f& rotation,
                     const Eigen::Vector3f& min, const Eigen::Vector3f& max, LocalPoints& out) const {
   const Box box(origin, rotation, min, max, 0.5f * order_.cell_m);
-  const PointKernels& kernels = point_kernels();
-  std::size_t& n = out.size_ = 0;
+  out.clear();
   for_each_range(box, [&](const PointRange& points) {
-    out.make_room(n + points.size + kPointPadding);
-    n += kernels.keep_inside(box.test, points,
-                             {out.a.data() + n, out.f.data() + n, out.z.data() + n, out.index.data() + n});
+    out.add_inside(box.test, points);
     return true;
   });
 }

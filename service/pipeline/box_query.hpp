@@ -19,12 +19,16 @@ struct LocalPoints {
   std::vector<std::uint32_t> index;  ///< into the cloud; the same
 
   [[nodiscard]] std::size_t size() const { return size_; }
+  void clear() { size_ = 0; }
+  void add_inside(const BoxTest& box, const PointRange& points);
 
  private:
-  friend class BoxQuery;
-  void make_room(std::size_t n);
   std::size_t size_ = 0;
 };
+
+/// Points whose coordinates rotation^T (p - origin) lie in [min, max] are inside.
+[[nodiscard]] BoxTest box_test(const Eigen::Vector3f& origin, const Eigen::Matrix3f& rotation,
+                               const Eigen::Vector3f& min, const Eigen::Vector3f& max);
 
 class BoxQuery {
  public:
@@ -56,7 +60,7 @@ class BoxQuery {
 
   CellOrder order_;
   std::vector<Row> rows_;  // by z, then y; one more at the end
-  CellPoints points_;
+  PaddedPoints points_;
 };
 
 }  // namespace graspd

@@ -94,14 +94,14 @@ CellOrder order_by_cell(const PointCloud& cloud, float cell_m) {
   return order;
 }
 
-CellPoints::CellPoints(const PointCloud& cloud, const CellOrder& order)
-    : x_(cloud.size() + kPointPadding),
-      y_(cloud.size() + kPointPadding),
-      z_(cloud.size() + kPointPadding),
-      index_(cloud.size() + kPointPadding) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cloud.size(), 8192), [&](const auto& range) {
+PaddedPoints::PaddedPoints(const PointCloud& cloud, std::span<const std::uint32_t> order)
+    : x_(order.size() + kPointPadding),
+      y_(order.size() + kPointPadding),
+      z_(order.size() + kPointPadding),
+      index_(order.size() + kPointPadding) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, order.size(), 8192), [&](const auto& range) {
     for (std::size_t k = range.begin(); k != range.end(); ++k) {
-      const std::uint32_t i = order.points[k];
+      const std::uint32_t i = order[k];
       x_[k] = cloud.x[i];
       y_[k] = cloud.y[i];
       z_[k] = cloud.z[i];

@@ -43,19 +43,22 @@ struct CellOrder {
 /// All points must be finite, and the cloud's extent less than 2^20 cells on each axis.
 [[nodiscard]] CellOrder order_by_cell(const PointCloud& cloud, float cell_m);
 
-/// The points of a cloud in the order of its cells, for the kernels.
-class CellPoints {
+/// Points of a cloud in an order of one's own, for the kernels.
+class PaddedPoints {
  public:
-  CellPoints() = default;
-  CellPoints(const PointCloud& cloud, const CellOrder& order);
+  PaddedPoints() = default;
+  /// order: indices into the cloud.
+  PaddedPoints(const PointCloud& cloud, std::span<const std::uint32_t> order);
 
+  [[nodiscard]] std::size_t size() const { return x_.size() - kPointPadding; }
   /// Those at positions [from, to) of the order.
   [[nodiscard]] PointRange range(std::size_t from, std::size_t to) const {
     return {x_.data() + from, y_.data() + from, z_.data() + from, index_.data() + from, to - from};
   }
+  [[nodiscard]] PointRange all() const { return range(0, size()); }
 
  private:
-  std::vector<float> x_, y_, z_;  // padded as the kernels want it
+  std::vector<float> x_, y_, z_;
   std::vector<std::uint32_t> index_;
 };
 

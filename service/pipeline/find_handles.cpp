@@ -88,7 +88,7 @@ Results check_all(const SceneView& scene, const Gripper& gripper, const HandleCh
     CheckBuffers& own = buffers.local();
     for (std::size_t i = range.begin(); i != range.end(); ++i) {
       const Candidate& candidate = candidates[i];
-      if (outlines && outlines->clearly_too_wide(candidate, gripper))
+      if (outlines && outlines->clearly_too_wide(candidate, gripper, own.local))
         results[i].failure = Failure::kTooWide;
       else
         results[i] = outlines ? check_candidate(scene, gripper, config, candidate, own)

@@ -119,28 +119,30 @@ Failure Check::check_support() const {
 }
 
 void Check::collect_between() {
-  between_.clear();
-  std::vector<float>&f = buffers_.widths, &z = buffers_.depths;
-  f.clear();
-  z.clear();
-  const float half = half_opening();
+  const float half = half_opening(), deepest = gripper_.grasp_depth_m,
+              highest = gripper_.grasp_depth_m - gripper_.finger_length_m;
+  std::size_t n = 0;
+  between_.resize(local_.size());
   for (std::size_t k = 0; k < local_.size(); ++k) {
-    const float kf = local_.f[k], kz = local_.z[k];
-    if (std::abs(kf) > half || kz > gripper_.grasp_depth_m ||
-        kz < gripper_.grasp_depth_m - gripper_.finger_length_m)
-      continue;
-    if (!is_own(k)) continue;
-    between_.push_back(static_cast<std::uint32_t>(k));
-    f.push_back(kf);
-    z.push_back(kz);
+    const float f = local_.f[k], z = local_.z[k];
+    between_[n] = static_cast<std::uint32_t>(k);
+    n += static_cast<std::size_t>(int{is_own(k)} & int{std::abs(f) <= half} & int{z <= deepest} &
+                                  int{z >= highest});
   }
-  const std::size_t skip = std::min(f.size() / 4, std::max<std::size_t>(1, f.size() / 200));
-  const auto nth = [](std::vector<float>& v, std::size_t n) {
-    std::nth_element(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(n), v.end());
-    return v[n];
+  between_.resize(n);
+  const auto nth = [n](std::vector<float>& v, std::size_t k) {
+    const auto at = v.begin() + static_cast<std::ptrdiff_t>(k);
+    std::nth_element(v.begin(), at, v.begin() + static_cast<std::ptrdiff_t>(n));
+    return *at;
   };
+  std::vector<float>&f = buffers_.widths, &z = buffers_.depths;
+  for (std::size_t i = 0; i < n; ++i) {
+    f[i] = local_.f[between_[i]];
+    z[i] = local_.z[between_[i]];
+  }
+  const std::size_t skip = std::min(n / 4, std::max<std::size_t>(1, n / 200));
   end_[0] = nth(f, skip);
-  end_[1] = nth(f, f.size() - 1 - skip);
+  end_[1] = nth(f, n - 1 - skip);
   top_ = nth(z, skip);
 }
 

@@ -98,9 +98,10 @@ struct CheckResult {
 struct CheckBuffers {
   LocalPoints local;              ///< around the candidate, relative to its fitted position
   std::vector<std::uint8_t> own;  ///< for each of them whether it is the candidate's object's
+  std::vector<int> bins;          ///< and its bin of the profile; -1: none
   std::vector<std::uint32_t> between;
   std::vector<int> own_profile, all_profile;
-  std::vector<float> depths, widths;
+  std::vector<float> depths, widths;  ///< room for one value a point
   std::vector<Eigen::Vector2f> profile;
 };
 

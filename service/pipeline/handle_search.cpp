@@ -69,16 +69,17 @@ Eigen::Vector3f rectangle_axis(const PointCloud& cloud, const Segment& segment) 
   return best;
 }
 
-/// Mean normal of the object's voxels near a seed.
-Eigen::Vector3f face_normal(const SearchInput& in, const std::vector<std::uint32_t>& points,
-                            std::uint32_t seed) {
+/// Mean normal of the object's voxels near a seed. near: working memory, with room for them all.
+Eigen::Vector3f face_normal(const SearchInput& in, const PaddedPoints& object, std::uint32_t seed,
+                            std::vector<std::uint32_t>& near) {
   constexpr float kRadius = 0.015f;
   const Eigen::Vector3f p = in.cloud.point(seed), n = in.normals.at(seed);
+  near.resize(object.size() + kPointPadding);
+  near.resize(
+      point_kernels().keep_near({p.x(), p.y(), p.z()}, kRadius * kRadius, object.all(), near.data()));
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-  for (const std::uint32_t i : points) {
-    if ((in.cloud.point(i) - p).squaredNorm() > kRadius * kRadius) continue;
+  for (const std::uint32_t i : near)
     if (in.normals.at(i).dot(n) > 0.8f) sum += in.normals.at(i);
-  }
   return sum.norm() > 1e-3f ? sum.normalized() : n;
 }
 
@@ -115,6 +116,8 @@ std::vector<HandleSearch::Seed> HandleSearch::spread_seeds(const std::vector<std
   PointCloud own;
   for (const std::uint32_t i : points) own.push_back(in_.cloud.point(i));
   const CellOrder order = order_by_cell(own, config_.seed_spacing_m);
+  const PaddedPoints object(in_.cloud, points);
+  std::vector<std::uint32_t> near;
   std::vector<Seed> seeds;
   for (std::size_t c = 0; c < order.num_cells(); ++c) {
     Eigen::Vector3f mean = Eigen::Vector3f::Zero();
@@ -124,15 +127,15 @@ std::vector<HandleSearch::Seed> HandleSearch::spread_seeds(const std::vector<std
       return (own.point(a) - mean).squaredNorm() < (own.point(b) - mean).squaredNorm();
     };
     const std::uint32_t seed = points[*std::min_element(order.cell(c).begin(), order.cell(c).end(), nearer)];
-    if (in_.segments.of_point[seed] >= 0) seeds.push_back({seed, outward_directions(points, seed)});
+    if (in_.segments.of_point[seed] >= 0) 
+      seeds.push_back({seed, outward_directions(seed, face_normal(in_, object, seed, near))});
   }
   return seeds;
 }
 
-HandleSearch::Directions HandleSearch::outward_directions(const std::vector<std::uint32_t>& points,
-                                                          std::uint32_t seed) const {
+HandleSearch::Directions HandleSearch::outward_directions(std::uint32_t seed,
+                                                          const Eigen::Vector3f& n) const {
   const Eigen::Vector3f to_sensor = (in_.cloud.viewpoint - in_.cloud.point(seed)).normalized();
-  const Eigen::Vector3f n = face_normal(in_, points, seed);
   Directions outward;
   add_distinct(outward, n, max_cosine_, false);
   if (in_.support) {

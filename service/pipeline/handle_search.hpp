@@ -70,8 +70,8 @@ class HandleSearch {
     Directions outward;  // opposite to the approaches worth trying, the best first
   };
   [[nodiscard]] std::vector<Seed> spread_seeds(const std::vector<std::uint32_t>& points) const;
-  [[nodiscard]] Directions outward_directions(const std::vector<std::uint32_t>& points,
-                                              std::uint32_t seed) const;
+  /// n: of the face that the seed is on.
+  [[nodiscard]] Directions outward_directions(std::uint32_t seed, const Eigen::Vector3f& n) const;
   [[nodiscard]] Directions major_axes(std::size_t segment, const Eigen::Vector3f& outward,
                                       SearchRound round) const;
   [[nodiscard]] Directions other_axes(const Eigen::Vector3f& outward, const Directions& tried) const;

@@ -16,7 +16,7 @@ namespace {
 /// only moves on.
 class RowCursor {
  public:
-  RowCursor(const CellOrder& order, const CellPoints& points, std::size_t first_cell)
+  RowCursor(const CellOrder& order, const PaddedPoints& points, std::size_t first_cell)
       : order_(order), points_(points) {
     std::size_t i = 0;
     for (std::int64_t dz = -1; dz <= 1; ++dz)
@@ -49,7 +49,7 @@ class RowCursor {
 
  private:
   const CellOrder& order_;
-  const CellPoints& points_;
+  const PaddedPoints& points_;
   std::array<std::int64_t, 9> offsets_{};
   std::array<std::size_t, 9> positions_{};
   std::vector<PointRange> rows_;
@@ -70,7 +70,7 @@ Neighborhoods find_neighborhoods(const PointCloud& cloud, const NeighborhoodsCon
   Neighborhoods result;
   result.lists_.resize(cloud.size());
   const CellOrder order = order_by_cell(cloud, config.radius_m);
-  const CellPoints points(cloud, order);
+  const PaddedPoints points(cloud, order.points);
   constexpr std::size_t kCellsPerChunk = 128;
   const std::size_t num_chunks = (order.num_cells() + kCellsPerChunk - 1) / kCellsPerChunk;
   result.storage_.resize(num_chunks);

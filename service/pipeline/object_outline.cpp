@@ -22,25 +22,25 @@ ObjectOutlines::ObjectOutlines(const PointCloud& cloud, const std::vector<std::i
     if (object_of_point[i] >= 0) all[static_cast<std::size_t>(object_of_point[i])].push_back(cloud.point(i));
   for (std::size_t k = 0; k < all.size(); ++k) {
     const CellOrder order = order_by_cell(all[k], kSpacing);
-    for (std::size_t c = 0; c < order.num_cells(); ++c)
-      objects_[k].push_back(all[k].point(order.cell(c).front()));
+    std::vector<std::uint32_t> first;
+    for (std::size_t c = 0; c < order.num_cells(); ++c) first.push_back(order.cell(c).front());
+    objects_[k] = PaddedPoints(all[k], first);
   }
 }
 
-bool ObjectOutlines::clearly_too_wide(const Candidate& candidate, const Gripper& gripper) const {
-  const PointCloud& points = objects_[static_cast<std::size_t>(candidate.object)];
-  const float half_band = 0.5f * gripper.finger_thickness_m;
+bool ObjectOutlines::clearly_too_wide(const Candidate& candidate, const Gripper& gripper,
+                                      LocalPoints& buffer) const {
+  const float half_band = 0.5f * gripper.finger_thickness_m, half_depth = 0.5f * gripper.grasp_depth_m;
+  constexpr float kReach = 31.4f * kSpacing;
+  // Only what is surely within the fingers' depth, wherever the top turns out to be.
+  buffer.clear();
+  buffer.add_inside(box_test(candidate.position, candidate.rotation, {-half_band, -kReach, -half_depth},
+                             {half_band, kReach, half_depth}),
+                    objects_[static_cast<std::size_t>(candidate.object)].all());
   // Occupied spacings to both sides of the candidate; bit 32 is its own.
   std::uint64_t occupied = 0;
-  const Eigen::Vector3f a = candidate.rotation.col(0), f = candidate.rotation.col(1),
-                        z = candidate.rotation.col(2);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Eigen::Vector3f d = points.point(i) - candidate.position;
-    // Only what is surely within the fingers' depth, wherever the top turns out to be.
-    if (std::abs(d.dot(a)) > half_band || std::abs(d.dot(z)) > 0.5f * gripper.grasp_depth_m) continue;
-    const float bin = d.dot(f) / kSpacing + 32.5f;
-    if (bin >= 0 && bin < 64) occupied |= std::uint64_t{1} << static_cast<int>(bin);
-  }
+  for (std::size_t k = 0; k < buffer.size(); ++k)
+    occupied |= std::uint64_t{1} << static_cast<int>(buffer.f[k] / kSpacing + 32.5f);
   const auto run = [occupied](int step) {
     int last = 32;
     for (int b = 32; b >= 0 && b < 64 && std::abs(b - last) <= 2; b += step)

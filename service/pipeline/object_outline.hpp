@@ -13,15 +13,17 @@ namespace graspd {
 
 class ObjectOutlines {
  public:
-  /// object_of_point: -1 for none.
+  /// object_of_point: negative for none.
   ObjectOutlines(const PointCloud& cloud, const std::vector<std::int32_t>& object_of_point, int num_objects);
 
   /// Whether the candidate's object goes on without a gap for clearly more than the aperture along the
   /// closing axis, within the band and depth that the fingers would take. False says nothing.
-  [[nodiscard]] bool clearly_too_wide(const Candidate& candidate, const Gripper& gripper) const;
+  /// buffer: working memory.
+  [[nodiscard]] bool clearly_too_wide(const Candidate& candidate, const Gripper& gripper,
+                                      LocalPoints& buffer) const;
 
  private:
-  std::vector<PointCloud> objects_;
+  std::vector<PaddedPoints> objects_;
 };
 
 }  // namespace graspd

@@ -27,10 +27,13 @@ struct ObjectsConfig {
   }
 };
 
+inline constexpr std::int32_t kNoObject = -1;
+inline constexpr std::int32_t kSupportObject = -2;  ///< of the points of the support
+
 struct Objects {
   int num_objects = 0;
   std::vector<std::int32_t> of_segment;  ///< object of each segment
-  std::vector<std::int32_t> of_point;    ///< object of each point; -1: none
+  std::vector<std::int32_t> of_point;    ///< object of each point; negative: none
   std::vector<Eigen::Vector3f> center;   ///< mean of each object's points
 };
 

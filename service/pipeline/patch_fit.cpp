@@ -13,6 +13,11 @@ constexpr float kBin = 0.001f;  // of the profile along the closing axis [m]
 constexpr float kTopWindow =
     0.012f;  // around the candidate's position, where the top is looked for first [m]
 
+/// Bin of the profile that begins at first_m; may be outside it.
+int bin_of(float f, float first_m) {
+  return cell_index((f - first_m) / kBin, 1);
+}
+
 /// Occupancy along the closing axis.
 struct Profile {
   float first_m;  ///< of bin 0
@@ -20,11 +25,11 @@ struct Profile {
 
   Profile(float half_length, CheckBuffers& buffers)
       : first_m(-half_length), own(buffers.own_profile), all(buffers.all_profile) {
-    const auto bins = static_cast<std::size_t>(2 * half_length / kBin) + 1;
+    const auto bins = static_cast<std::size_t>(num_bins(half_length));
     own.assign(bins, 0);
     all.assign(bins, 0);
   }
-  [[nodiscard]] int bin(float f) const { return cell_index((f - first_m) / kBin, 1); }
+  [[nodiscard]] static int num_bins(float half_length) { return static_cast<int>(2 * half_length / kBin) + 1; }
   [[nodiscard]] float at(int bin) const { return first_m + kBin * static_cast<float>(bin); }
   [[nodiscard]] int size() const { return static_cast<int>(all.size()); }
 };
@@ -49,13 +54,16 @@ int walk(const Profile& profile, int from, int step, int min_gap, int& next) {
 bool find_top(CheckBuffers& buffers, float f_min, float f_max, float& top_m) {
   const LocalPoints& local = buffers.local;
   std::vector<float>& z = buffers.depths;
-  z.clear();
-  for (std::size_t k = 0; k < local.size(); ++k)
-    if (buffers.own[k] && local.f[k] >= f_min && local.f[k] <= f_max) z.push_back(local.z[k]);
-  if (z.size() < 4) return false;
-  const std::size_t skip = std::min(z.size() / 4, std::max<std::size_t>(1, z.size() / 50));
-  std::nth_element(z.begin(), z.begin() + static_cast<std::ptrdiff_t>(skip), z.end());
-  top_m = z[skip];
+  std::size_t n = 0;
+  for (std::size_t k = 0; k < local.size(); ++k) {
+    z[n] = local.z[k];
+    n += static_cast<std::size_t>(buffers.own[k] & int{local.f[k] >= f_min} & int{local.f[k] <= f_max});
+  }
+  if (n < 4) return false;
+  const std::size_t skip = std::min(n / 4, std::max<std::size_t>(1, n / 50));
+  const auto begin = z.begin(), nth = begin + static_cast<std::ptrdiff_t>(skip);
+  std::nth_element(begin, nth, begin + static_cast<std::ptrdiff_t>(n));
+  top_m = *nth;
   return true;
 }
 
@@ -78,17 +86,17 @@ float raise_for_obstacles(const SceneView& scene, const Gripper& g, const Handle
   }
   std::vector<float>& hits =
       buffers.depths;  // above the fingertips' depth, where something is in a finger's way
-  hits.clear();
+  std::size_t n = 0;
   for (std::size_t k = 0; k < local.size(); ++k) {
     const float f = std::abs(local.f[k] - fit.center_m), z = local.z[k] - fit.top_m;
-    if (f > half && f <= half + g.finger_width_m && z <= g.grasp_depth_m &&
-        z >= g.grasp_depth_m - g.finger_length_m)
-      hits.push_back(g.grasp_depth_m - z);
+    hits[n] = g.grasp_depth_m - z;
+    n += static_cast<std::size_t>(int{f > half} & int{f <= half + g.finger_width_m} &
+                                  int{z <= g.grasp_depth_m} & int{z >= g.grasp_depth_m - g.finger_length_m});
   }
   const auto allowed = static_cast<std::size_t>(scene.tolerance / 2);
-  if (hits.size() > allowed) {
+  if (n > allowed) {
     const auto nth = hits.begin() + static_cast<std::ptrdiff_t>(allowed);
-    std::nth_element(hits.begin(), nth, hits.end(), std::greater<>());
+    std::nth_element(hits.begin(), nth, hits.begin() + static_cast<std::ptrdiff_t>(n), std::greater<>());
     raise = std::max(raise, *nth + 0.001f);
   }
   return raise;
@@ -106,14 +114,12 @@ Failure find_patch(const SceneView& scene, const Gripper& g, CheckBuffers& buffe
   Profile profile(profile_reach(scene, g), buffers);
   for (std::size_t k = 0; k < local.size(); ++k) {
     const float z = local.z[k] - fit.top_m;
-    if (z > g.grasp_depth_m || z < g.grasp_depth_m - g.finger_length_m) continue;
-    const int b = profile.bin(local.f[k]);
-    // Where the support is in the way, the fingers go less deep (below): it does not widen the patch.
-    if (b < 0 || b >= profile.size() || scene.is_support(local.index[k])) continue;
+    const int b = buffers.bins[k];
+    if (b < 0 || z > g.grasp_depth_m || z < g.grasp_depth_m - g.finger_length_m) continue;
     ++profile.all[static_cast<std::size_t>(b)];
     profile.own[static_cast<std::size_t>(b)] += buffers.own[k];
   }
-  int start = profile.bin(f0);
+  int start = bin_of(f0, profile.first_m);
   for (int d = 0; d < static_cast<int>(0.5f * g.aperture_m / kBin); ++d) {
     const auto own_at = [&](int b) {
       return b >= 0 && b < profile.size() && profile.own[static_cast<std::size_t>(b)] > 0;
@@ -171,6 +177,26 @@ void shift(LocalPoints& local, float f, float z) {
   }
 }
 
+/// Whose the points are, and where in the profile.
+void describe_points(const SceneView& scene, const Candidate& candidate, float reach_m,
+                     CheckBuffers& buffers) {
+  const LocalPoints& local = buffers.local;
+  if (buffers.own.size() < local.size()) {
+    buffers.own.resize(local.a.size());
+    buffers.bins.resize(local.a.size());
+    buffers.depths.resize(local.a.size());
+    buffers.widths.resize(local.a.size());
+  }
+  const int num_bins = Profile::num_bins(reach_m);
+  for (std::size_t k = 0; k < local.size(); ++k) buffers.bins[k] = bin_of(local.f[k], -reach_m);
+  for (std::size_t k = 0; k < local.size(); ++k) {
+    const std::int32_t object = scene.object[local.index[k]];
+    buffers.own[k] = object == candidate.object ? 1 : 0;
+    // Where the support is in the way, the fingers go less deep: it does not widen the patch.
+    if (object == kSupportObject || buffers.bins[k] >= num_bins) buffers.bins[k] = -1;
+  }
+}
+
 }  // namespace
 
 Failure fit_patch(const SceneView& scene, const Gripper& gripper, const HandleCheckConfig& config,
@@ -183,9 +209,7 @@ Failure fit_patch(const SceneView& scene, const Gripper& gripper, const HandleCh
     scene.query.find(
         candidate.position, candidate.rotation, {-0.5f * g.finger_thickness_m, -reach, z - above},
         {0.5f * g.finger_thickness_m, reach, z + g.grasp_depth_m + 2 * kTopWindow}, buffers.local);
-    if (buffers.own.size() < buffers.local.size()) buffers.own.resize(buffers.local.a.size());
-    for (std::size_t k = 0; k < buffers.local.size(); ++k)
-      buffers.own[k] = scene.object[buffers.local.index[k]] == candidate.object ? 1 : 0;
+    describe_points(scene, candidate, reach, buffers);
   };
   gather(0);
   if (!find_top(buffers, -kTopWindow, kTopWindow, fit.top_m)) return Failure::kTooFewPoints;

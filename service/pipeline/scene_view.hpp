@@ -10,6 +10,7 @@
 #include "service/pipeline/box_query.hpp"
 #include "service/pipeline/depth_map.hpp"
 #include "service/pipeline/normals.hpp"
+#include "service/pipeline/objects.hpp"
 #include "service/pipeline/support.hpp"
 
 namespace graspd {
@@ -18,7 +19,7 @@ namespace graspd {
 struct SceneView {
   const PointCloud& cloud;
   const BoxQuery& query;
-  const std::vector<std::int32_t>& object;  ///< object of each point; -1: none
+  const std::vector<std::int32_t>& object;  ///< object of each point, kSupportObject, kNoObject
   const Normals& normals;                   ///< of the voxels
   const std::vector<std::uint32_t>* voxel;  ///< voxel of each point; null: the points are the voxels
   const std::optional<Support>& support;
@@ -29,9 +30,6 @@ struct SceneView {
 
   [[nodiscard]] std::uint32_t voxel_of(std::uint32_t point) const { return voxel ? (*voxel)[point] : point; }
   [[nodiscard]] Eigen::Vector3f normal(std::uint32_t point) const { return normals.at(voxel_of(point)); }
-  [[nodiscard]] bool is_support(std::uint32_t point) const {
-    return support && support->is_support[voxel_of(point)];
-  }
 };
 
 }  // namespace graspd

@@ -21,6 +21,11 @@ Normals surface_normals(const PointCloud& cloud, const Neighborhoods& neighborho
   return normals;
 }
 
+void mark_support(const Support& support, std::vector<std::int32_t>& object_of_point) {
+  for (std::size_t i = 0; i < object_of_point.size(); ++i)
+    if (support.is_support[i]) object_of_point[i] = kSupportObject;
+}
+
 /// Marks the walls of a container as fixed and takes them out of the labels; false where there is none.
 bool take_out_container(const Surfaces& s, const DetectConfig& config, std::vector<std::uint8_t>& is_fixed,
                         Labels& labels) {
@@ -67,6 +72,7 @@ Surfaces find_surfaces(const PointCloud& cloud, const DetectConfig& config, cons
     s.segments = build_segments(s.cloud, labels, leaf, config.segments);
   done("segments");
   s.objects = group_segments(s.cloud, s.normals, neighborhoods, s.segments, is_fixed, config.objects);
+  if (s.support) mark_support(*s.support, s.objects.of_point);
   s.wholes = merge_objects(s.cloud, s.normals, neighborhoods, s.objects, config.objects);
   done("objects");
   return s;

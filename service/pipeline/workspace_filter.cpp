@@ -2,9 +2,58 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/pipeline/workspace_filter.hpp"
 
-#include <cmath>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
 
 namespace graspd {
+namespace {
+
+struct Kept {
+  int finite = 0, inside = 0;
+};
+
+/// Copies the points from [begin, end) that are wanted to kept, from begin on.
+Kept keep_inside(const PointCloud& cloud, const WorkspaceFilterConfig& config, std::size_t begin,
+                 std::size_t end, PointCloud& kept) {
+  const float nearest = config.min_range_m * config.min_range_m;
+  const float farthest = config.max_range_m * config.max_range_m;
+  const Eigen::Matrix3f R = config.T_box_cloud.linear();
+  const Eigen::Vector3f t = config.T_box_cloud.translation(), lo = config.min_m, hi = config.max_m,
+                        origin = cloud.viewpoint;
+  constexpr std::size_t kBlock = 64;
+  int inside[kBlock];
+  Kept count;
+  std::size_t n = begin;
+  for (; begin < end; begin += kBlock) {
+    const std::size_t size = std::min(kBlock, end - begin);
+    const float *xs = cloud.x.data() + begin, *ys = cloud.y.data() + begin, *zs = cloud.z.data() + begin;
+    for (std::size_t k = 0; k < size; ++k) {
+      const float x = xs[k], y = ys[k], z = zs[k];
+      const float dx = x - origin.x(), dy = y - origin.y(), dz = z - origin.z();
+      const float range = dx * dx + dy * dy + dz * dz;
+      const float u = R(0, 0) * x + R(0, 1) * y + R(0, 2) * z + t.x(),
+                  v = R(1, 0) * x + R(1, 1) * y + R(1, 2) * z + t.y(),
+                  w = R(2, 0) * x + R(2, 1) * y + R(2, 2) * z + t.z();
+      // The difference is NaN for what is not finite.
+      const int finite = int{x - x == 0} & int{y - y == 0} & int{z - z == 0};
+      count.finite += finite;
+      inside[k] = finite & int{range >= nearest} & int{range <= farthest} & int{u >= lo.x()} &
+                  int{u <= hi.x()} & int{v >= lo.y()} & int{v <= hi.y()} & int{w >= lo.z()} &
+                  int{w <= hi.z()};
+    }
+    for (std::size_t k = 0; k < size; ++k) {
+      kept.x[n] = xs[k];
+      kept.y[n] = ys[k];
+      kept.z[n] = zs[k];
+      n += static_cast<std::size_t>(inside[k]);
+      count.inside += inside[k];
+    }
+  }
+  return count;
+}
+
+}  // namespace
 
 std::optional<ConfigProblem> WorkspaceFilterConfig::validate() const {
   if (!(min_m.array() < max_m.array()).all())
@@ -15,25 +64,22 @@ std::optional<ConfigProblem> WorkspaceFilterConfig::validate() const {
 }
 
 WorkspaceResult filter_workspace(const PointCloud& cloud, const WorkspaceFilterConfig& config) {
+  constexpr std::size_t kChunk = 1 << 15;
   WorkspaceResult result;
   PointCloud& kept = result.cloud;
   kept.viewpoint = cloud.viewpoint;
   kept.resize(cloud.size());
-  const float nearest = config.min_range_m * config.min_range_m;
-  const float farthest = config.max_range_m * config.max_range_m;
+  std::vector<Kept> counts((cloud.size() + kChunk - 1) / kChunk);
+  tbb::parallel_for(std::size_t{0}, counts.size(), [&](std::size_t c) {
+    counts[c] = keep_inside(cloud, config, c * kChunk, std::min((c + 1) * kChunk, cloud.size()), kept);
+  });
   std::size_t n = 0;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const Eigen::Vector3f p = cloud.point(i);
-    if (!std::isfinite(p.x()) || !std::isfinite(p.y()) || !std::isfinite(p.z())) continue;
-    ++result.num_finite;
-    const float range = (p - cloud.viewpoint).squaredNorm();
-    const Eigen::Vector3f q = config.T_box_cloud * p;
-    const bool inside =
-        (q.array() >= config.min_m.array()).all() && (q.array() <= config.max_m.array()).all();
-    kept.x[n] = p.x();
-    kept.y[n] = p.y();
-    kept.z[n] = p.z();
-    n += static_cast<std::size_t>(inside && range >= nearest && range <= farthest);
+  for (std::size_t c = 0; c < counts.size(); ++c) {
+    const auto from = static_cast<std::ptrdiff_t>(c * kChunk);
+    for (std::vector<float>* v : {&kept.x, &kept.y, &kept.z})
+      std::copy_n(v->begin() + from, counts[c].inside, v->begin() + static_cast<std::ptrdiff_t>(n));
+    n += static_cast<std::size_t>(counts[c].inside);
+    result.num_finite += counts[c].finite;
   }
   kept.resize(n);
   kept.width = static_cast<int>(n);
