@@ -13,25 +13,59 @@
 namespace graspd {
 namespace {
 
+template <class Key>
 struct Entry {
-  std::uint64_t key;
+  Key key;
   std::uint32_t point;
 };
 
 constexpr int kDigitBits = 11;
 constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
 
-/// Stable least-significant-digit radix sort over the lowest num_bits of the keys.
-void radix_sort(std::vector<Entry>& entries, int num_bits) {
-  std::vector<Entry> sorted(entries.size());
-  for (int shift = 0; shift < num_bits; shift += kDigitBits) {
-    std::array<std::uint32_t, kDigits> next{};
-    for (const Entry& e : entries) ++next[(e.key >> shift) & (kDigits - 1)];
+template <class Key>
+std::size_t digit(Key key, int place) {
+  return static_cast<std::size_t>(key >> (place * kDigitBits)) & (kDigits - 1);
+}
+
+/// The points by key; stable. Radix sort, least significant digit first, over the lowest num_bits.
+template <class Key>
+std::vector<Entry<Key>> sorted_by_key(const std::vector<Key>& keys, int num_bits) {
+  const int num_places = std::max(1, (num_bits + kDigitBits - 1) / kDigitBits);
+  std::vector<std::array<std::uint32_t, kDigits>> next(static_cast<std::size_t>(num_places));
+  for (const Key key : keys)
+    for (int place = 0; place < num_places; ++place) ++next[static_cast<std::size_t>(place)][digit(key, place)];
+  for (auto& of_place : next) {
     std::uint32_t sum = 0;
-    for (std::uint32_t& n : next) sum += std::exchange(n, sum);
-    for (const Entry& e : entries) sorted[next[(e.key >> shift) & (kDigits - 1)]++] = e;
+    for (std::uint32_t& n : of_place) sum += std::exchange(n, sum);
+  }
+  std::vector<Entry<Key>> entries(keys.size()), sorted(num_places > 1 ? keys.size() : 0);
+  for (std::uint32_t i = 0; i < keys.size(); ++i) entries[next[0][digit(keys[i], 0)]++] = {keys[i], i};
+  for (int place = 1; place < num_places; ++place) {
+    auto& of_place = next[static_cast<std::size_t>(place)];
+    for (const Entry<Key>& e : entries) sorted[of_place[digit(e.key, place)]++] = e;
     entries.swap(sorted);
   }
+  return entries;
+}
+
+template <class Key>
+void set_cells(const std::vector<Entry<Key>>& entries, CellOrder& order) {
+  const std::size_t n = entries.size();
+  std::size_t num_cells = 1;
+  for (std::size_t i = 1; i < n; ++i) num_cells += entries[i].key != entries[i - 1].key ? 1 : 0;
+  order.points.resize(n);
+  order.keys.resize(num_cells + 1);
+  order.starts.resize(num_cells + 1);
+  // Each point writes where the next cell would begin; those that begin none are overwritten.
+  std::size_t c = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    order.points[i] = entries[i].point;
+    order.keys[c] = static_cast<std::int64_t>(entries[i].key);
+    order.starts[c] = static_cast<std::uint32_t>(i);
+    c += i == 0 || entries[i].key != entries[i - 1].key ? 1 : 0;
+  }
+  order.keys.resize(num_cells);
+  order.starts[num_cells] = static_cast<std::uint32_t>(n);
 }
 
 /// Number of cells on an axis, with one to spare at either end; min: the first.
@@ -55,13 +89,39 @@ int cell_range(const std::vector<float>& v, float per_cell, int& min) {
   return cell_index(*std::max_element(high.begin(), high.end()), per_cell) + 2 - min;
 }
 
+/// Number of each point's cell.
+template <class Key>
+std::vector<Key> number_cells(const PointCloud& cloud, float per_cell, const CellOrder& order) {
+  std::vector<Key> keys(cloud.size());
+  const CellGrid grid{per_cell,
+                      {order.min_cell.x(), order.min_cell.y(), order.min_cell.z()},
+                      static_cast<std::uint32_t>(order.row),
+                      static_cast<std::uint32_t>(order.layer)};
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cloud.size(), 8192), [&](const auto& range) {
+    const std::size_t begin = range.begin(), end = range.end();
+    if constexpr (sizeof(Key) == sizeof(std::uint32_t))
+      point_kernels().number_cells(grid, cloud.x.data() + begin, cloud.y.data() + begin,
+                                   cloud.z.data() + begin, end - begin, keys.data() + begin);
+    else
+      for (std::size_t i = begin; i < end; ++i)
+        keys[i] = static_cast<Key>(order.key({cell_index(cloud.x[i], per_cell),
+                                              cell_index(cloud.y[i], per_cell),
+                                              cell_index(cloud.z[i], per_cell)}));
+  });
+  return keys;
+}
+
+template <class Key>
+void sort_into_cells(const PointCloud& cloud, float per_cell, int num_bits, CellOrder& order) {
+  set_cells(sorted_by_key(number_cells<Key>(cloud, per_cell, order), num_bits), order);
+}
+
 }  // namespace
 
 CellOrder order_by_cell(const PointCloud& cloud, float cell_m) {
   CellOrder order;
   order.cell_m = cell_m;
-  const std::size_t n = cloud.size();
-  if (n == 0) {
+  if (cloud.empty()) {
     order.starts = {0};
     return order;
   }
@@ -70,27 +130,11 @@ CellOrder order_by_cell(const PointCloud& cloud, float cell_m) {
   order.row = cell_range(cloud.x, per_cell, min.x());
   order.layer = order.row * cell_range(cloud.y, per_cell, min.y());
   const std::int64_t num_keys = order.layer * cell_range(cloud.z, per_cell, min.z());
-
-  std::vector<Entry> entries(n);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, 8192), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i != range.end(); ++i) {
-      const Eigen::Vector3i cell(cell_index(cloud.x[i], per_cell), cell_index(cloud.y[i], per_cell),
-                                 cell_index(cloud.z[i], per_cell));
-      entries[i] = {static_cast<std::uint64_t>(order.key(cell)), static_cast<std::uint32_t>(i)};
-    }
-  });
-  radix_sort(entries, static_cast<int>(std::bit_width(static_cast<std::uint64_t>(num_keys))));
-
-  order.points.resize(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    order.points[i] = entries[i].point;
-    const auto key = static_cast<std::int64_t>(entries[i].key);
-    if (i == 0 || key != order.keys.back()) {
-      order.keys.push_back(key);
-      order.starts.push_back(static_cast<std::uint32_t>(i));
-    }
-  }
-  order.starts.push_back(static_cast<std::uint32_t>(n));
+  const int num_bits = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(num_keys)));
+  if (num_bits <= 32)
+    sort_into_cells<std::uint32_t>(cloud, per_cell, num_bits, order);
+  else
+    sort_into_cells<std::uint64_t>(cloud, per_cell, num_bits, order);
   return order;
 }
 

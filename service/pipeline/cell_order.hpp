@@ -33,13 +33,6 @@ struct CellOrder {
   }
 };
 
-/// floor(coordinate * per_cell) by truncation, which unlike std::floor needs no call and goes into vectors.
-[[nodiscard]] inline int cell_index(float coordinate, float per_cell) {
-  const float scaled = coordinate * per_cell;
-  const int truncated = static_cast<int>(scaled);
-  return truncated - (static_cast<float>(truncated) > scaled ? 1 : 0);
-}
-
 /// All points must be finite, and the cloud's extent less than 2^20 cells on each axis.
 [[nodiscard]] CellOrder order_by_cell(const PointCloud& cloud, float cell_m);
 

@@ -25,24 +25,64 @@ Eigen::Matrix3f looking_along(const Eigen::Vector3f& forward) {
   return axes;
 }
 
+constexpr std::size_t kBlock = 64;
+
+/// Some points in the axes of the view; plain loops that the compiler can use vectors for.
+struct ViewBlock {
+  std::size_t size;
+  float x[kBlock], y[kBlock], z[kBlock];
+
+  ViewBlock(const Eigen::Matrix3f& to_view, const Eigen::Vector3f& viewpoint, const PointCloud& cloud,
+            std::size_t from)
+      : size(std::min(kBlock, cloud.size() - from)) {
+    const float *px = cloud.x.data() + from, *py = cloud.y.data() + from, *pz = cloud.z.data() + from;
+    const float ox = viewpoint.x(), oy = viewpoint.y(), oz = viewpoint.z();
+    const auto row = [&to_view](int i) { return Eigen::Vector3f(to_view.row(i)); };
+    const Eigen::Vector3f right = row(0), down = row(1), forward = row(2);
+    for (std::size_t k = 0; k < size; ++k) {
+      const float dx = px[k] - ox, dy = py[k] - oy, dz = pz[k] - oz;
+      x[k] = right[0] * dx + right[1] * dy + right[2] * dz;
+      y[k] = down[0] * dx + down[1] * dy + down[2] * dz;
+      z[k] = forward[0] * dx + forward[1] * dy + forward[2] * dz;
+    }
+  }
+};
+
+/// Of the unit vectors from the viewpoint to the points.
+Eigen::Vector3f sum_of_directions(const PointCloud& cloud) {
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  float length[kBlock];
+  for (std::size_t from = 0; from < cloud.size(); from += kBlock) {
+    const ViewBlock block(Eigen::Matrix3f::Identity(), cloud.viewpoint, cloud, from);
+    for (std::size_t k = 0; k < block.size; ++k) {
+      const float squared = block.x[k] * block.x[k] + block.y[k] * block.y[k] + block.z[k] * block.z[k];
+      length[k] = squared > 0 ? std::sqrt(squared) : 1.0f;
+    }
+    for (std::size_t k = 0; k < block.size; ++k)
+      sum += Eigen::Vector3f(block.x[k] / length[k], block.y[k] / length[k], block.z[k] / length[k]);
+  }
+  return sum;
+}
+
 }  // namespace
 
 DepthMap::DepthMap(const PointCloud& cloud)
     : viewpoint_(cloud.viewpoint), to_view_(Eigen::Matrix3f::Identity()) {
   if (cloud.empty()) return;
-  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-  for (std::size_t i = 0; i < cloud.size(); ++i) sum += (cloud.point(i) - viewpoint_).normalized();
+  const Eigen::Vector3f sum = sum_of_directions(cloud);
   if (sum.norm() < 1e-3f) return;
   to_view_ = looking_along(sum.normalized());
 
   float left = kMaxSlope, right = -kMaxSlope, top = kMaxSlope, bottom = -kMaxSlope;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const Eigen::Vector3f q = to_view_ * (cloud.point(i) - viewpoint_);
-    if (q.z() <= 0) continue;
-    left = std::min(left, q.x() / q.z());
-    right = std::max(right, q.x() / q.z());
-    top = std::min(top, q.y() / q.z());
-    bottom = std::max(bottom, q.y() / q.z());
+  for (std::size_t from = 0; from < cloud.size(); from += kBlock) {
+    const ViewBlock block(to_view_, viewpoint_, cloud, from);
+    for (std::size_t k = 0; k < block.size; ++k) {
+      if (block.z[k] <= 0) continue;
+      left = std::min(left, block.x[k] / block.z[k]);
+      right = std::max(right, block.x[k] / block.z[k]);
+      top = std::min(top, block.y[k] / block.z[k]);
+      bottom = std::max(bottom, block.y[k] / block.z[k]);
+    }
   }
   left = std::max(left, -kMaxSlope);
   right = std::min(right, kMaxSlope);
@@ -77,15 +117,23 @@ void DepthMap::splat(const PointCloud& cloud) {
   const auto size = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
   depth_.assign(size, 0);
   point_.assign(size, kFree);
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    int u = 0, v = 0;
-    float depth = 0;
-    if (!project(cloud.point(i), u, v, depth)) continue;
-    const std::size_t k =
-        static_cast<std::size_t>(v) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(u);
-    if (depth_[k] != 0 && depth_[k] <= depth) continue;
-    depth_[k] = depth;
-    point_[k] = static_cast<std::int32_t>(i);
+  const auto width = static_cast<float>(width_), height = static_cast<float>(height_);
+  float fu[kBlock], fv[kBlock];
+  for (std::size_t from = 0; from < cloud.size(); from += kBlock) {
+    const ViewBlock block(to_view_, viewpoint_, cloud, from);
+    for (std::size_t k = 0; k < block.size; ++k) {
+      fu[k] = focal_ * block.x[k] / block.z[k] + center_u_ + 0.5f;
+      fv[k] = focal_ * block.y[k] / block.z[k] + center_v_ + 0.5f;
+    }
+    for (std::size_t k = 0; k < block.size; ++k) {
+      const float depth = block.z[k];
+      if (!(depth > 0 && fu[k] >= 0 && fv[k] >= 0 && fu[k] < width && fv[k] < height)) continue;
+      const std::size_t at = static_cast<std::size_t>(static_cast<int>(fv[k])) * static_cast<std::size_t>(width_) +
+                             static_cast<std::size_t>(static_cast<int>(fu[k]));
+      if (depth_[at] != 0 && depth_[at] <= depth) continue;
+      depth_[at] = depth;
+      point_[at] = static_cast<std::int32_t>(from + k);
+    }
   }
 }
 

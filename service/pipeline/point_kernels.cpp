@@ -82,10 +82,19 @@ std::size_t keep_near(const float (&p)[3], float distance_squared, const PointRa
   return static_cast<std::size_t>(end - out);
 }
 
+void number_cells(const CellGrid& grid, const float* x, const float* y, const float* z, std::size_t n,
+                  std::uint32_t* out) {
+  const auto from_first = [&grid](float coordinate, int axis) {
+    return static_cast<std::uint32_t>(cell_index(coordinate, grid.per_cell) - grid.min_cell[axis]);
+  };
+  for (std::size_t i = 0; i < n; ++i)
+    out[i] = from_first(x[i], 0) + grid.row * from_first(y[i], 1) + grid.layer * from_first(z[i], 2);
+}
+
 }  // namespace
 
 const PointKernels& portable_kernels() {
-  static constexpr PointKernels kKernels{keep_inside, count_inside, keep_near};
+  static constexpr PointKernels kKernels{keep_inside, count_inside, keep_near, number_cells};
   return kKernels;
 }
 

@@ -30,6 +30,13 @@ struct LocalOutput {
   std::uint32_t* index;
 };
 
+/// A regular grid whose cells are numbered in 32 bits: min_cell has number 0, the next along x 1, and so on.
+struct CellGrid {
+  float per_cell;  ///< cells a metre
+  int min_cell[3];
+  std::uint32_t row, layer;  ///< from one number to the same place in the next row along y, and layer along z
+};
+
 struct PointKernels {
   /// Writes the points inside, in their order; returns their number.
   std::size_t (*keep_inside)(const BoxTest& box, const PointRange& points, const LocalOutput& out);
@@ -39,7 +46,17 @@ struct PointKernels {
   /// must be room for size + kPointPadding.
   std::size_t (*keep_near)(const float (&p)[3], float distance_squared, const PointRange& points,
                            std::uint32_t* out);
+  /// Writes the number of the cell of each of n points.
+  void (*number_cells)(const CellGrid& grid, const float* x, const float* y, const float* z, std::size_t n,
+                       std::uint32_t* out);
 };
+
+/// floor(coordinate * per_cell) by truncation, which unlike std::floor needs no call and goes into vectors.
+[[nodiscard]] inline int cell_index(float coordinate, float per_cell) {
+  const float scaled = coordinate * per_cell;
+  const int truncated = static_cast<int>(scaled);
+  return truncated - (static_cast<float>(truncated) > scaled ? 1 : 0);
+}
 
 [[nodiscard]] const PointKernels& portable_kernels();
 /// Null where the processor or the compiler's target has no AVX2.

@@ -125,10 +125,36 @@ GRASPD_AVX2 std::size_t keep_near(const float (&p)[3], float distance_squared, c
   return n;
 }
 
+GRASPD_AVX2 inline __m256i cells_from_first(const float* v, __m256 per_cell, int min_cell) {
+  const __m256 scaled = _mm256_mul_ps(_mm256_loadu_ps(v), per_cell);
+  const __m256i truncated = _mm256_cvttps_epi32(scaled);
+  const __m256 above = _mm256_cmp_ps(_mm256_cvtepi32_ps(truncated), scaled, _CMP_GT_OQ);
+  // The mask is -1 where truncation rounded up.
+  const __m256i cell = _mm256_add_epi32(truncated, _mm256_castps_si256(above));
+  return _mm256_sub_epi32(cell, _mm256_set1_epi32(min_cell));
+}
+
+GRASPD_AVX2 void number_cells(const CellGrid& grid, const float* x, const float* y, const float* z,
+                              std::size_t n, std::uint32_t* out) {
+  const __m256 per_cell = _mm256_set1_ps(grid.per_cell);
+  const __m256i row = _mm256_set1_epi32(static_cast<int>(grid.row)),
+                layer = _mm256_set1_epi32(static_cast<int>(grid.layer));
+  std::size_t i = 0;
+  for (; i + 8 <= n; i += 8) {
+    const __m256i cx = cells_from_first(x + i, per_cell, grid.min_cell[0]),
+                  cy = cells_from_first(y + i, per_cell, grid.min_cell[1]),
+                  cz = cells_from_first(z + i, per_cell, grid.min_cell[2]);
+    const __m256i cell = _mm256_add_epi32(
+        _mm256_add_epi32(cx, _mm256_mullo_epi32(row, cy)), _mm256_mullo_epi32(layer, cz));
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(out + i), cell);
+  }
+  portable_kernels().number_cells(grid, x + i, y + i, z + i, n - i, out + i);
+}
+
 }  // namespace
 
 const PointKernels* avx2_kernels() {
-  static constexpr PointKernels kKernels{keep_inside, count_inside, keep_near};
+  static constexpr PointKernels kKernels{keep_inside, count_inside, keep_near, number_cells};
   static const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("popcnt");
   return has_avx2 ? &kKernels : nullptr;
 }

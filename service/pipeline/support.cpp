@@ -23,7 +23,8 @@ constexpr std::size_t kSampleSize = 2000;    // points that hypotheses are score
 constexpr std::size_t kScatterSize = 10000;  // points that the scatter is measured on
 
 struct Sample {
-  std::vector<Eigen::Vector3f> points, normals;
+  PointCloud points;
+  Normals normals;
 };
 
 /// Every k-th point: voxels are spread evenly over surfaces, so that this is too.
@@ -32,31 +33,37 @@ Sample thin_out(const PointCloud& cloud, const Normals& normals) {
   const std::size_t step = std::max<std::size_t>(1, cloud.size() / kSampleSize);
   for (std::size_t i = 0; i < cloud.size(); i += step) {
     sample.points.push_back(cloud.point(i));
-    sample.normals.push_back(normals.at(i));
+    sample.normals.x.push_back(normals.x[i]);
+    sample.normals.y.push_back(normals.y[i]);
+    sample.normals.z.push_back(normals.z[i]);
   }
   return sample;
 }
 
 /// Inliers less the points that lie behind the plane, where a support that hides what is behind it has none.
 int plane_score(const Sample& sample, const Plane& plane, float thickness_m, float min_cosine) {
-  int inliers = 0, behind = 0;
+  const float nx = plane.normal.x(), ny = plane.normal.y(), nz = plane.normal.z(), offset = plane.offset_m;
+  const float *x = sample.points.x.data(), *y = sample.points.y.data(), *z = sample.points.z.data();
+  const float *u = sample.normals.x.data(), *v = sample.normals.y.data(), *w = sample.normals.z.data();
+  int score = 0;
   for (std::size_t i = 0; i < sample.points.size(); ++i) {
-    const float height = plane.height(sample.points[i]);
-    inliers += (std::abs(height) < thickness_m && plane.normal.dot(sample.normals[i]) > min_cosine) ? 1 : 0;
-    behind += height < -3 * thickness_m ? 1 : 0;
+    const float height = nx * x[i] + ny * y[i] + nz * z[i] + offset;
+    const float cosine = nx * u[i] + ny * v[i] + nz * w[i];
+    score += int{std::abs(height) < thickness_m} & int{cosine > min_cosine};
+    score -= int{height < -3 * thickness_m};
   }
-  return inliers - behind;
+  return score;
 }
 
 std::optional<Plane> plane_through(const Sample& sample, const std::array<std::size_t, 3>& at,
                                    float min_cosine, const Eigen::Vector3f& viewpoint) {
-  const Eigen::Vector3f& a = sample.points[at[0]];
-  Eigen::Vector3f normal = (sample.points[at[1]] - a).cross(sample.points[at[2]] - a);
+  const Eigen::Vector3f a = sample.points.point(at[0]);
+  Eigen::Vector3f normal = (sample.points.point(at[1]) - a).cross(sample.points.point(at[2]) - a);
   if (normal.norm() < 1e-6f) return std::nullopt;
   normal.normalize();
   if (normal.dot(viewpoint - a) < 0) normal = -normal;
   for (const std::size_t i : at)
-    if (normal.dot(sample.normals[i]) < min_cosine) return std::nullopt;
+    if (normal.dot(sample.normals.at(i)) < min_cosine) return std::nullopt;
   return Plane{normal, -normal.dot(a)};
 }
 
