@@ -2,6 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/pipeline/detect_handles.hpp"
 
+#include <tbb/parallel_invoke.h>
+
+#include <optional>
+#include <utility>
+
 #include "service/pipeline/find_handles.hpp"
 #include "service/pipeline/surfaces.hpp"
 
@@ -35,16 +40,20 @@ Detection detect_handles(const PointCloud& cloud, const Gripper& gripper, const 
       kept.num_finite == 0 ? DetectionStatus::kNoFinitePoints : DetectionStatus::kNothingInWorkspace;
   if (kept.cloud.empty()) return detection;
 
-  const Surfaces surfaces = find_surfaces(kept.cloud, config, done);
+  // Beside the surfaces, many of whose stages leave threads free.
+  std::optional<PointIndex> index;
+  Surfaces surfaces;
+  tbb::parallel_invoke([&] { index.emplace(kept.cloud); },
+                       [&] { surfaces = find_surfaces(kept.cloud, config, done); });
+  done("index");
   detection.points_used = static_cast<int>(surfaces.cloud.size());
-  const CheckedCandidates checked = find_handles(kept.cloud, surfaces, gripper, config);
-  detection.num_candidates = checked.num_tried;
-  detection.candidate_failures = checked.failures;
-  detection.segments = checked.segments;
-  done("handles");
-  detection.handles = rank_handles(checked.handles, config.ranking);
+  FoundHandles found = find_handles(kept.cloud, *index, surfaces, gripper, config);
+  detection.num_candidates = found.num_tried;
+  detection.candidate_failures = found.failures;
+  detection.segments = std::move(found.segments);
+  detection.handles = std::move(found.handles);
   detection.status = detection.handles.empty() ? DetectionStatus::kNoHandles : DetectionStatus::kOk;
-  done("ranking");
+  done("handles");
   return detection;
 }
 

@@ -1,25 +1,27 @@
 // SPDX-FileCopyrightText: 2026 The graspd authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Searches and checks in rounds: each candidate first against the voxels, which costs little, then against
-// every point.
+// The second half of the method: from surfaces to handles.
 #pragma once
 #include <vector>
 
 #include "service/pipeline/detect_config.hpp"
+#include "service/pipeline/gripper.hpp"
+#include "service/pipeline/guess_search.hpp"
 #include "service/pipeline/segment_report.hpp"
 #include "service/pipeline/surfaces.hpp"
 
 namespace graspd {
 
-struct CheckedCandidates {
-  std::vector<RankedHandle> handles;  ///< in the order of the candidates within each round
+struct FoundHandles {
+  std::vector<Handle> handles;  ///< best first
   std::vector<SegmentReport> segments;
-  int num_tried = 0;
+  int num_tried = 0;         ///< candidates
   FailureCounts failures{};  ///< of all candidates tried
 };
 
-/// cloud: every point of the workspace, that the surfaces were found in.
-[[nodiscard]] CheckedCandidates find_handles(const PointCloud& cloud, const Surfaces& surfaces,
-                                             const Gripper& gripper, const DetectConfig& config);
+/// cloud: every point of the workspace, that the surfaces were found in; index: of the same.
+[[nodiscard]] FoundHandles find_handles(const PointCloud& cloud, const PointIndex& index,
+                                        const Surfaces& surfaces, const Gripper& gripper,
+                                        const DetectConfig& config);
 
 }  // namespace graspd

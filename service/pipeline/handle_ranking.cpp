@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <numbers>
+#include <numeric>
+#include <utility>
 
 namespace graspd {
 namespace {
@@ -61,30 +64,54 @@ void choose_places(const std::vector<RankedHandle>& handles, std::vector<std::si
   }
 }
 
-}  // namespace
-
-std::vector<Handle> rank_handles(std::vector<RankedHandle> handles, const HandleRankingConfig& config) {
-  std::erase_if(handles, [&](const RankedHandle& r) { return r.handle.score < config.min_score; });
-  std::stable_sort(handles.begin(), handles.end(), [](const RankedHandle& a, const RankedHandle& b) {
-    return a.handle.score > b.handle.score;
-  });
+/// Indices of the handles that are kept, best first. leaders: the best of each object.
+std::vector<std::size_t> choose(const std::vector<RankedHandle>& handles, const HandleRankingConfig& config,
+                                std::vector<std::size_t>& leaders) {
+  std::vector<std::size_t> order(handles.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::erase_if(order, [&](std::size_t i) { return handles[i].handle.score < config.min_score; });
+  const auto better = [&](std::size_t a, std::size_t b) {
+    return handles[a].handle.score > handles[b].handle.score;
+  };
+  std::stable_sort(order.begin(), order.end(), better);
   std::map<int, std::vector<std::size_t>> of_object;
-  std::vector<int> objects;  // the one with the best handle first
-  for (std::size_t i = 0; i < handles.size(); ++i) {
+  leaders.clear();
+  for (const std::size_t i : order) {
     std::vector<std::size_t>& own = of_object[handles[i].object];
-    if (own.empty()) objects.push_back(handles[i].object);
+    if (own.empty()) leaders.push_back(i);
     own.push_back(i);
   }
   std::vector<const Handle*> kept;
   std::vector<std::size_t> chosen;
-  for (const int object : objects) choose_places(handles, of_object[object], config, kept, chosen);
+  for (const std::size_t leader : leaders)
+    choose_places(handles, of_object[handles[leader].object], config, kept, chosen);
   std::sort(chosen.begin(), chosen.end());
+  std::stable_sort(chosen.begin(), chosen.end(), better);
   if (chosen.size() > static_cast<std::size_t>(config.max_handles))
     chosen.resize(static_cast<std::size_t>(config.max_handles));
-  std::vector<Handle> ranked;
-  ranked.reserve(chosen.size());
-  for (const std::size_t i : chosen) ranked.push_back(handles[i].handle);
-  return ranked;
+  return chosen;
+}
+
+}  // namespace
+
+std::vector<Handle> rank_handles(std::vector<RankedHandle> handles, const HandleRankingConfig& config,
+                                 const SettleScores& settle) {
+  std::vector<std::uint8_t> is_final(handles.size(), settle ? 0 : 1);
+  std::vector<std::size_t> leaders, open;
+  for (;;) {
+    const std::vector<std::size_t> chosen = choose(handles, config, leaders);
+    open.clear();
+    leaders.insert(leaders.end(), chosen.begin(), chosen.end());
+    for (const std::size_t i : leaders)
+      if (!std::exchange(is_final[i], std::uint8_t{1})) open.push_back(i);
+    if (open.empty()) {
+      std::vector<Handle> ranked;
+      ranked.reserve(chosen.size());
+      for (const std::size_t i : chosen) ranked.push_back(handles[i].handle);
+      return ranked;
+    }
+    settle(open, handles);
+  }
 }
 
 }  // namespace graspd

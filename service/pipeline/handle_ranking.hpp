@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Orders handles best first and keeps one for each distinct place.
 #pragma once
+#include <functional>
 #include <vector>
 
 #include "service/pipeline/config_fields.hpp"
@@ -39,9 +40,16 @@ struct RankedHandle {
   int object = -1;
 };
 
+/// Sets the final scores of the handles with these indices; each is asked for once.
+using SettleScores =
+    std::function<void(const std::vector<std::size_t>& which, std::vector<RankedHandle>& handles)>;
+
 /// One for each distinct place, max_per_object for each object: its best, and then those that score best with
 /// regard to how far they are from the ones before. Best score first; ties keep the order of the input.
+/// settle: scores are upper bounds, and it is asked for the final ones of those handles that the result depends
+/// on; without, they are final.
 [[nodiscard]] std::vector<Handle> rank_handles(std::vector<RankedHandle> handles,
-                                               const HandleRankingConfig& config);
+                                               const HandleRankingConfig& config,
+                                               const SettleScores& settle = {});
 
 }  // namespace graspd

@@ -147,10 +147,10 @@ TEST(DetectStages, AreReportedOnceEach) {
   const Detection observed = detect_handles(cloud, {}, {}, note);
   ASSERT_FALSE(stages.empty());
   EXPECT_EQ(stages.front(), "workspace_filter");
-  EXPECT_EQ(stages.back(), "ranking");
+  EXPECT_EQ(stages.back(), "handles");
   const std::set<std::string> expected{"workspace_filter", "downsample", "support",     "neighborhoods",
                                        "normals",          "smoothing",  "edge_points", "region_growing",
-                                       "segments",         "objects",    "handles",     "ranking"};
+                                       "segments",         "objects",    "index",       "handles"};
   EXPECT_EQ(std::set<std::string>(stages.begin(), stages.end()), expected);
   EXPECT_EQ(stages.size(), expected.size());
   EXPECT_TRUE(same_bits(observed, detect(cloud))) << "watching changes nothing";

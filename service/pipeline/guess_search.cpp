@@ -1,0 +1,200 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/pipeline/guess_search.hpp"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+
+#include "service/pipeline/careful_check.hpp"
+
+namespace graspd {
+namespace {
+
+constexpr float kVoxelCell = 0.02f;  // of the grids for box queries [m]
+constexpr float kPointCell = 0.015f;
+constexpr int kVoxelTolerance =
+    2;  // stray points a volume may have: counts are absolute, noise does not scale
+constexpr int kPointTolerance = 4;
+
+using Results = std::vector<CheckResult>;
+
+/// outlines: a first look, which refuses at little cost what is much too wide; null: the thorough one.
+Results check_all(const SceneView& scene, const Gripper& gripper, const HandleCheckConfig& config,
+                  const std::vector<Candidate>& candidates, const ObjectOutlines* outlines) {
+  Results results(candidates.size());
+  tbb::enumerable_thread_specific<CheckBuffers> buffers;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, candidates.size(), 8), [&](const auto& range) {
+    CheckBuffers& own = buffers.local();
+    for (std::size_t i = range.begin(); i != range.end(); ++i) {
+      const Candidate& candidate = candidates[i];
+      if (outlines && outlines->clearly_too_wide(candidate, gripper, own.local))
+        results[i].failure = Failure::kTooWide;
+      else
+        results[i] = outlines ? check_candidate(scene, gripper, config, candidate, own)
+                              : check_squarely(scene, gripper, config, candidate, own);
+    }
+  });
+  return results;
+}
+
+std::vector<std::int32_t> spread_to_points(const std::vector<std::int32_t>& of_voxel,
+                                           const std::vector<std::uint32_t>& voxel_of_point) {
+  std::vector<std::int32_t> of_point(voxel_of_point.size());
+  for (std::size_t i = 0; i < of_point.size(); ++i) of_point[i] = of_voxel[voxel_of_point[i]];
+  return of_point;
+}
+
+/// Off the middle the object turns between the jaws: the margin falls off over 6 cm along the major axis.
+FoundHandle scored(const CheckResult& result, const Eigen::Vector3f& center, int object,
+                   const SceneView& scene) {
+  constexpr float kFalloff = 0.06f;
+  FoundHandle found{{result.handle, object}, result.margins, &scene, object};
+  const float off = result.handle.rotation.col(0).dot(center - result.handle.position) / kFalloff;
+  found.margins.central = std::exp(-off * off);
+  found.ranked.handle.score = score(found.margins);
+  return found;
+}
+
+void count(const Candidate& candidate, Failure failure, SearchResult& out) {
+  ++out.num_tried;
+  SegmentReport& report = out.segments[static_cast<std::size_t>(candidate.segment)];
+  ++report.num_candidates;
+  if (failure == Failure::kNone) {
+    ++report.num_handles;
+    return;
+  }
+  ++report.failures[static_cast<std::size_t>(failure)];
+  ++out.failures[static_cast<std::size_t>(failure)];
+}
+
+/// The best by score of each object, ascending.
+std::vector<std::size_t> best_of_objects(const std::vector<Candidate>& candidates,
+                                         const std::vector<float>& scores, std::size_t most) {
+  std::vector<std::size_t> order(candidates.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return scores[a] > scores[b]; });
+  std::map<std::int32_t, std::size_t> taken;
+  std::erase_if(order, [&](std::size_t i) { return ++taken[candidates[i].object] > most; });
+  std::sort(order.begin(), order.end());
+  return order;
+}
+
+/// The candidates that pass among the voxels, the most promising ones of each object; counts those that fail.
+std::vector<Candidate> prefilter(const SceneView& voxels, const Gripper& gripper,
+                                 const HandleCheckConfig& config, const std::vector<Candidate>& candidates,
+                                 const ObjectOutlines& outlines, SearchResult& out) {
+  constexpr std::size_t kMostOfAnObject = 12;
+  const Results coarse = check_all(voxels, gripper, config, candidates, &outlines);
+  std::vector<Candidate> passed;
+  std::vector<float> scores;
+  passed.reserve(candidates.size());
+  scores.reserve(candidates.size());
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (coarse[i].failure != Failure::kNone) {
+      count(candidates[i], coarse[i].failure, out);
+      continue;
+    }
+    passed.push_back(candidates[i]);
+    scores.push_back(score(coarse[i].margins));
+  }
+  // A few that passed among the voxels hold the few that are published.
+  std::vector<Candidate> promising;
+  promising.reserve(passed.size());
+  for (const std::size_t i : best_of_objects(passed, scores, kMostOfAnObject)) promising.push_back(passed[i]);
+  return promising;
+}
+
+/// An object with this many handles takes no part in a round.
+int enough_before(SearchRound round) {
+  switch (round) {
+    case SearchRound::kSurface:
+      return std::numeric_limits<int>::max();
+    case SearchRound::kSurroundings:
+      return 6;
+    case SearchRound::kAllDirections:
+      return 1;
+  }
+  return 0;
+}
+
+/// What voxels measure is off by up to half a voxel at either end: they refuse only what is clearly wrong.
+HandleCheckConfig coarse_limits(HandleCheckConfig limits) {
+  limits.max_silhouette_angle_deg = std::min(80.0f, limits.max_silhouette_angle_deg + 6);
+  limits.max_wall_angle_deg = std::min(80.0f, limits.max_wall_angle_deg + 6);
+  limits.max_facing_angle_deg = std::min(80.0f, limits.max_facing_angle_deg + 6);
+  limits.min_own_share *= 0.97f;
+  limits.min_contact_area_m2 *= 0.8f;
+  return limits;
+}
+
+}  // namespace
+
+PointIndex::PointIndex(const PointCloud& cloud) : depth_map(cloud), query(cloud, kPointCell) {}
+
+CheckedScene::CheckedScene(const PointCloud& c, const PointIndex& i, const Surfaces& s,
+                           const DetectConfig& config)
+    : cloud(c),
+      index(i),
+      surfaces(s),
+      voxel_area_m2(config.downsample.leaf_size_m * config.downsample.leaf_size_m),
+      voxel_query(s.cloud, kVoxelCell) {}
+
+GuessSearch::GuessSearch(const CheckedScene& scene, const Objects& objects, const Gripper& gripper,
+                         const DetectConfig& config)
+    : objects_(objects),
+      gripper_(gripper),
+      config_(config),
+      object_of_point_(spread_to_points(objects.of_point, scene.surfaces.voxel_of_point)),
+      outlines_(scene.surfaces.cloud, objects.of_point, objects.num_objects),
+      coarse_check_(coarse_limits(config.check)),
+      input_{scene.surfaces.cloud, scene.surfaces.normals, scene.surfaces.segments, objects,
+             scene.surfaces.support},
+      voxels_{scene.surfaces.cloud,
+              scene.voxel_query,
+              objects.of_point,
+              scene.surfaces.normals,
+              nullptr,
+              scene.surfaces.support,
+              scene.index.depth_map,
+              object_of_point_,
+              scene.voxel_area_m2,
+              kVoxelTolerance},
+      points_{scene.cloud,
+              scene.index.query,
+              object_of_point_,
+              scene.surfaces.normals,
+              &scene.surfaces.voxel_of_point,
+              scene.surfaces.support,
+              scene.index.depth_map,
+              object_of_point_,
+              scene.voxel_area_m2,
+              kPointTolerance} {}
+
+void GuessSearch::run(const std::vector<std::uint8_t>& wanted, SearchResult& out) const {
+  const HandleSearch search(input_, gripper_, config_.search, wanted);
+  std::vector<int> handles_of_object(wanted.size());
+  for (const SearchRound round : kSearchRounds) {
+    std::vector<std::uint8_t> open = wanted;
+    for (std::size_t k = 0; k < open.size(); ++k)
+      if (handles_of_object[k] >= enough_before(round)) open[k] = 0;
+    const std::vector<Candidate> left =
+        prefilter(voxels_, gripper_, coarse_check_, search.candidates(round, open), outlines_, out);
+    const Results fine = check_all(points_, gripper_, config_.check, left, nullptr);
+    for (std::size_t k = 0; k < left.size(); ++k) {
+      count(left[k], fine[k].failure, out);
+      if (fine[k].failure != Failure::kNone) continue;
+      const auto object = static_cast<std::size_t>(left[k].object);
+      out.handles.push_back(scored(fine[k], objects_.center[object], left[k].object, points_));
+      ++handles_of_object[object];
+    }
+  }
+}
+
+}  // namespace graspd

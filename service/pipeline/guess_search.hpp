@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The search for handles on the objects of one guess at what belongs together.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "service/pipeline/detect_config.hpp"
+#include "service/pipeline/handle_ranking.hpp"
+#include "service/pipeline/handle_search.hpp"
+#include "service/pipeline/object_outline.hpp"
+#include "service/pipeline/scene_view.hpp"
+#include "service/pipeline/segment_report.hpp"
+#include "service/pipeline/surfaces.hpp"
+
+namespace graspd {
+
+/// What finding points in boxes and behind others needs of every point of the workspace.
+struct PointIndex {
+  DepthMap depth_map;
+  BoxQuery query;
+
+  explicit PointIndex(const PointCloud& cloud);
+};
+
+/// The cloud in both resolutions. References must outlive it.
+struct CheckedScene {
+  const PointCloud& cloud;
+  const PointIndex& index;
+  const Surfaces& surfaces;
+  float voxel_area_m2;
+  BoxQuery voxel_query;
+
+  CheckedScene(const PointCloud& cloud, const PointIndex& index, const Surfaces& surfaces,
+               const DetectConfig& config);
+};
+
+/// A handle whose steadiness has not been looked at: its score is an upper bound.
+struct FoundHandle {
+  RankedHandle ranked;
+  HandleMargins margins;   ///< that the score was made of
+  const SceneView* scene;  ///< that it was found in
+  std::int32_t candidate_object;  ///< its object there
+};
+
+/// What was found, and what became of the rest.
+struct SearchResult {
+  std::vector<FoundHandle> handles;  ///< in the order of the candidates within each round
+  std::vector<SegmentReport> segments;
+  FailureCounts failures{};  ///< of all candidates tried
+  int num_tried = 0;
+};
+
+class GuessSearch {
+ public:
+  /// All must outlive the search and what it finds.
+  GuessSearch(const CheckedScene& scene, const Objects& objects, const Gripper& gripper,
+              const DetectConfig& config);
+
+  /// wanted: 1 for each object to search. Adds to out, which has a report for each segment.
+  void run(const std::vector<std::uint8_t>& wanted, SearchResult& out) const;
+
+ private:
+  const Objects& objects_;
+  const Gripper& gripper_;
+  const DetectConfig& config_;
+  std::vector<std::int32_t> object_of_point_;
+  ObjectOutlines outlines_;
+  HandleCheckConfig coarse_check_;
+  SearchInput input_;
+  SceneView voxels_, points_;
+};
+
+}  // namespace graspd
