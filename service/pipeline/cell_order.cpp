@@ -32,9 +32,9 @@ template <class Key>
 std::vector<Entry<Key>> sorted_by_key(const std::vector<Key>& keys, int num_bits) {
   const int num_places = std::max(1, (num_bits + kDigitBits - 1) / kDigitBits);
   std::vector<std::array<std::uint32_t, kDigits>> next(static_cast<std::size_t>(num_places));
-  for (const Key key : keys)
-    for (int place = 0; place < num_places; ++place) ++next[static_cast<std::size_t>(place)][digit(key, place)];
-  for (auto& of_place : next) {
+  for (int place = 0; place < num_places; ++place) {
+    auto& of_place = next[static_cast<std::size_t>(place)];
+    for (const Key key : keys) ++of_place[digit(key, place)];
     std::uint32_t sum = 0;
     for (std::uint32_t& n : of_place) sum += std::exchange(n, sum);
   }
@@ -78,8 +78,9 @@ int cell_range(const std::vector<float>& v, float per_cell, int& min) {
   std::size_t i = 0;
   for (; i + kLanes <= v.size(); i += kLanes)
     for (std::size_t k = 0; k < kLanes; ++k) {
-      low[k] = std::min(low[k], v[i + k]);
-      high[k] = std::max(high[k], v[i + k]);
+      const float c = v[i + k];
+      low[k] = c < low[k] ? c : low[k];
+      high[k] = c > high[k] ? c : high[k];
     }
   for (; i < v.size(); ++i) {
     low[0] = std::min(low[0], v[i]);

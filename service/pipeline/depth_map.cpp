@@ -172,4 +172,25 @@ std::int32_t DepthMap::hider(const Eigen::Vector3f& p, float margin_m) const {
   return depth_[k] > 0 && depth_[k] < depth - margin_m ? point_[k] : kFree;
 }
 
+void DepthMap::find_hiders(const Probes& places, float margin_m, std::int32_t (&hiders)[kProbes]) const {
+  std::fill_n(hiders, kProbes, kFree);
+  if (depth_.empty()) return;
+  const Eigen::Vector3f right = to_view_.row(0), down = to_view_.row(1), forward = to_view_.row(2);
+  const auto width = static_cast<float>(width_), height = static_cast<float>(height_);
+  float fu[kProbes], fv[kProbes], depth[kProbes];
+  for (std::size_t k = 0; k < kProbes; ++k) {
+    const float dx = places.x[k] - viewpoint_.x(), dy = places.y[k] - viewpoint_.y(),
+                dz = places.z[k] - viewpoint_.z();
+    depth[k] = forward[0] * dx + forward[1] * dy + forward[2] * dz;
+    fu[k] = focal_ * (right[0] * dx + right[1] * dy + right[2] * dz) / depth[k] + center_u_ + 0.5f;
+    fv[k] = focal_ * (down[0] * dx + down[1] * dy + down[2] * dz) / depth[k] + center_v_ + 0.5f;
+  }
+  for (std::size_t k = 0; k < kProbes; ++k) {
+    if (!(depth[k] > 0 && fu[k] >= 0 && fv[k] >= 0 && fu[k] < width && fv[k] < height)) continue;
+    const std::size_t at = static_cast<std::size_t>(static_cast<int>(fv[k])) * static_cast<std::size_t>(width_) +
+                           static_cast<std::size_t>(static_cast<int>(fu[k]));
+    if (depth_[at] > 0 && depth_[at] < depth[k] - margin_m) hiders[k] = point_[at];
+  }
+}
+
 }  // namespace graspd

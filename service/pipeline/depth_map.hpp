@@ -22,6 +22,13 @@ class DepthMap {
   /// it does.
   [[nodiscard]] std::int32_t hider(const Eigen::Vector3f& p, float margin_m) const;
 
+  static constexpr std::size_t kProbes = 8;
+  struct Probes {
+    float x[kProbes], y[kProbes], z[kProbes];  ///< in the cloud's frame [m]
+  };
+  /// The same for several places at once.
+  void find_hiders(const Probes& places, float margin_m, std::int32_t (&hiders)[kProbes]) const;
+
   /// Area of the surface across the line of sight that one pixel covers at p [m2].
   [[nodiscard]] float ray_area(const Eigen::Vector3f& p) const;
 

@@ -126,7 +126,7 @@ void Check::collect_between() {
   for (std::size_t k = 0; k < local_.size(); ++k) {
     const float f = local_.f[k], z = local_.z[k];
     between_[n] = static_cast<std::uint32_t>(k);
-    n += static_cast<std::size_t>(int{is_own(k)} & int{std::abs(f) <= half} & int{z <= deepest} &
+    n += static_cast<std::size_t>(buffers_.own[k] & int{std::abs(f) <= half} & int{z <= deepest} &
                                   int{z >= highest});
   }
   between_.resize(n);
@@ -202,19 +202,29 @@ Failure Check::check_walls() {
 }
 
 float Check::hidden_share(float f0, float f1, float z0, float z1, bool by_others) const {
+  constexpr std::size_t kDepths = DepthMap::kProbes;
+  DepthMap::Probes places;
+  std::int32_t hiders[kDepths];
   int samples = 0, hidden = 0;
+  const Eigen::Matrix3f& R = handle_.rotation;
+  const Eigen::Vector3f& p = handle_.position;
   for (const float a : {-0.4f, 0.0f, 0.4f})
-    for (const float s : {0.1f, 0.5f, 0.9f})
-      for (int k = 0; k < 8; ++k) {
-        const Eigen::Vector3f q(a * gripper_.finger_thickness_m, f0 + (f1 - f0) * s,
-                                z0 + (z1 - z0) * (static_cast<float>(k) + 0.5f) / 8);
-        const std::int32_t hider =
-            scene_.depth_map.hider(handle_.position + handle_.rotation * q, kHideMargin);
+    for (const float s : {0.1f, 0.5f, 0.9f}) {
+      const float along = a * gripper_.finger_thickness_m, f = f0 + (f1 - f0) * s;
+      for (std::size_t k = 0; k < kDepths; ++k) {
+        const float z = z0 + (z1 - z0) * (static_cast<float>(k) + 0.5f) / kDepths;
+        places.x[k] = p.x() + (R(0, 0) * along + R(0, 1) * f + R(0, 2) * z);
+        places.y[k] = p.y() + (R(1, 0) * along + R(1, 1) * f + R(1, 2) * z);
+        places.z[k] = p.z() + (R(2, 0) * along + R(2, 1) * f + R(2, 2) * z);
+      }
+      scene_.depth_map.find_hiders(places, kHideMargin, hiders);
+      for (const std::int32_t hider : hiders) {
         ++samples;
         if (hider == DepthMap::kFree) continue;
         const bool by_own = scene_.depth_map_object[static_cast<std::size_t>(hider)] == candidate_.object;
         hidden += by_others && by_own ? 0 : 1;
       }
+    }
   return static_cast<float>(hidden) / static_cast<float>(samples);
 }
 

@@ -97,8 +97,8 @@ struct CheckResult {
 /// Working memory of a check, kept from call to call.
 struct CheckBuffers {
   LocalPoints local;              ///< around the candidate, relative to its fitted position
-  std::vector<std::uint8_t> own;  ///< for each of them whether it is the candidate's object's
-  std::vector<int> bins;          ///< and its bin of the profile; -1: none
+  std::vector<std::int32_t> own;   ///< 1 for each of them that is the candidate's object's
+  std::vector<std::int32_t> bins;  ///< and its bin of the profile; negative: none
   std::vector<std::uint32_t> between;
   std::vector<int> own_profile, all_profile;
   std::vector<float> depths, widths;  ///< room for one value a point

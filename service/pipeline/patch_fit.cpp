@@ -50,15 +50,16 @@ int walk(const Profile& profile, int from, int step, int min_gap, int& next) {
   return last;
 }
 
+BandPoints band(const CheckBuffers& buffers) {
+  const LocalPoints& local = buffers.local;
+  return {local.f.data(), local.z.data(), local.index.data(), local.size()};
+}
+
 /// Depth that only a few of the object's points between f_min and f_max are above.
 bool find_top(CheckBuffers& buffers, float f_min, float f_max, float& top_m) {
-  const LocalPoints& local = buffers.local;
   std::vector<float>& z = buffers.depths;
-  std::size_t n = 0;
-  for (std::size_t k = 0; k < local.size(); ++k) {
-    z[n] = local.z[k];
-    n += static_cast<std::size_t>(buffers.own[k] & int{local.f[k] >= f_min} & int{local.f[k] <= f_max});
-  }
+  const std::size_t n =
+      point_kernels().keep_depths(band(buffers), buffers.own.data(), f_min, f_max, z.data());
   if (n < 4) return false;
   const std::size_t skip = std::min(n / 4, std::max<std::size_t>(1, n / 50));
   const auto begin = z.begin(), nth = begin + static_cast<std::ptrdiff_t>(skip);
@@ -187,14 +188,10 @@ void describe_points(const SceneView& scene, const Candidate& candidate, float r
     buffers.depths.resize(local.a.size());
     buffers.widths.resize(local.a.size());
   }
-  const int num_bins = Profile::num_bins(reach_m);
-  for (std::size_t k = 0; k < local.size(); ++k) buffers.bins[k] = bin_of(local.f[k], -reach_m);
-  for (std::size_t k = 0; k < local.size(); ++k) {
-    const std::int32_t object = scene.object[local.index[k]];
-    buffers.own[k] = object == candidate.object ? 1 : 0;
-    // Where the support is in the way, the fingers go less deep: it does not widen the patch.
-    if (object == kSupportObject || buffers.bins[k] >= num_bins) buffers.bins[k] = -1;
-  }
+  // Where the support is in the way, the fingers go less deep: it does not widen the patch.
+  const BandTags tags{scene.object.data(), candidate.object, kSupportObject, -reach_m, kBin,
+                      Profile::num_bins(reach_m)};
+  point_kernels().tag_band(tags, band(buffers), buffers.own.data(), buffers.bins.data());
 }
 
 }  // namespace

@@ -91,10 +91,30 @@ void number_cells(const CellGrid& grid, const float* x, const float* y, const fl
     out[i] = from_first(x[i], 0) + grid.row * from_first(y[i], 1) + grid.layer * from_first(z[i], 2);
 }
 
+void tag_band(const BandTags& tags, const BandPoints& points, std::int32_t* own, std::int32_t* bins) {
+  for (std::size_t k = 0; k < points.size; ++k) bins[k] = cell_index((points.f[k] - tags.first) / tags.bin, 1);
+  for (std::size_t k = 0; k < points.size; ++k) {
+    const std::int32_t object = tags.object_of_point[points.index[k]];
+    own[k] = object == tags.object ? 1 : 0;
+    if (object == tags.left_out || bins[k] >= tags.num_bins) bins[k] = -1;
+  }
+}
+
+std::size_t keep_depths(const BandPoints& points, const std::int32_t* own, float f_min, float f_max,
+                        float* out) {
+  std::size_t n = 0;
+  for (std::size_t k = 0; k < points.size; ++k) {
+    out[n] = points.z[k];
+    n += static_cast<std::size_t>(own[k] & int{points.f[k] >= f_min} & int{points.f[k] <= f_max});
+  }
+  return n;
+}
+
 }  // namespace
 
 const PointKernels& portable_kernels() {
-  static constexpr PointKernels kKernels{keep_inside, count_inside, keep_near, number_cells};
+  static constexpr PointKernels kKernels{keep_inside,  count_inside, keep_near,
+                                         number_cells, tag_band,     keep_depths};
   return kKernels;
 }
 

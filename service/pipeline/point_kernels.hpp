@@ -37,6 +37,21 @@ struct CellGrid {
   std::uint32_t row, layer;  ///< from one number to the same place in the next row along y, and layer along z
 };
 
+/// Points of a band as the fit of a patch sees them.
+struct BandPoints {
+  const float *f, *z;
+  const std::uint32_t* index;  ///< into the cloud
+  std::size_t size;
+};
+
+/// Whose points are the candidate's, and how the profile along f is divided.
+struct BandTags {
+  const std::int32_t* object_of_point;
+  std::int32_t object, left_out;  ///< points of left_out take no part in the profile
+  float first, bin;               ///< where bin 0 begins, and the length of each [m]
+  std::int32_t num_bins;
+};
+
 struct PointKernels {
   /// Writes the points inside, in their order; returns their number.
   std::size_t (*keep_inside)(const BoxTest& box, const PointRange& points, const LocalOutput& out);
@@ -49,6 +64,13 @@ struct PointKernels {
   /// Writes the number of the cell of each of n points.
   void (*number_cells)(const CellGrid& grid, const float* x, const float* y, const float* z, std::size_t n,
                        std::uint32_t* out);
+  /// own: 1 for each point of the object; bins: that of each point, negative where it has none. There must be
+  /// room for size + kPointPadding, and as many points to read.
+  void (*tag_band)(const BandTags& tags, const BandPoints& points, std::int32_t* own, std::int32_t* bins);
+  /// Writes z of the own points with f in [f_min, f_max], in their order; returns their number. There must be
+  /// room for size + kPointPadding, and as many points to read.
+  std::size_t (*keep_depths)(const BandPoints& points, const std::int32_t* own, float f_min, float f_max,
+                             float* out);
 };
 
 /// floor(coordinate * per_cell) by truncation, which unlike std::floor needs no call and goes into vectors.

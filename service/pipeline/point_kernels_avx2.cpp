@@ -125,13 +125,19 @@ GRASPD_AVX2 std::size_t keep_near(const float (&p)[3], float distance_squared, c
   return n;
 }
 
+GRASPD_AVX2 inline __m256i load(const void* from) {
+  return _mm256_loadu_si256(static_cast<const __m256i*>(from));
+}
+
+GRASPD_AVX2 inline __m256i floor_to_int(__m256 v) {
+  const __m256i truncated = _mm256_cvttps_epi32(v);
+  const __m256 above = _mm256_cmp_ps(_mm256_cvtepi32_ps(truncated), v, _CMP_GT_OQ);
+  return _mm256_add_epi32(truncated, _mm256_castps_si256(above));  // the mask is -1 where that rounded up
+}
+
 GRASPD_AVX2 inline __m256i cells_from_first(const float* v, __m256 per_cell, int min_cell) {
-  const __m256 scaled = _mm256_mul_ps(_mm256_loadu_ps(v), per_cell);
-  const __m256i truncated = _mm256_cvttps_epi32(scaled);
-  const __m256 above = _mm256_cmp_ps(_mm256_cvtepi32_ps(truncated), scaled, _CMP_GT_OQ);
-  // The mask is -1 where truncation rounded up.
-  const __m256i cell = _mm256_add_epi32(truncated, _mm256_castps_si256(above));
-  return _mm256_sub_epi32(cell, _mm256_set1_epi32(min_cell));
+  return _mm256_sub_epi32(floor_to_int(_mm256_mul_ps(_mm256_loadu_ps(v), per_cell)),
+                          _mm256_set1_epi32(min_cell));
 }
 
 GRASPD_AVX2 void number_cells(const CellGrid& grid, const float* x, const float* y, const float* z,
@@ -151,10 +157,47 @@ GRASPD_AVX2 void number_cells(const CellGrid& grid, const float* x, const float*
   portable_kernels().number_cells(grid, x + i, y + i, z + i, n - i, out + i);
 }
 
+GRASPD_AVX2 void tag_band(const BandTags& tags, const BandPoints& points, std::int32_t* own,
+                          std::int32_t* bins) {
+  const __m256 first = _mm256_set1_ps(tags.first), bin = _mm256_set1_ps(tags.bin);
+  const __m256i object = _mm256_set1_epi32(tags.object), left_out = _mm256_set1_epi32(tags.left_out),
+                last = _mm256_set1_epi32(tags.num_bins - 1);
+  std::size_t k = 0;
+  for (; k + 8 <= points.size; k += 8) {
+    const __m256i of_point =
+        _mm256_i32gather_epi32(tags.object_of_point, load(points.index + k), sizeof(std::int32_t));
+    const __m256i b = floor_to_int(_mm256_div_ps(_mm256_sub_ps(_mm256_loadu_ps(points.f + k), first), bin));
+    const __m256i none = _mm256_or_si256(_mm256_cmpeq_epi32(of_point, left_out), _mm256_cmpgt_epi32(b, last));
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(own + k),
+                        _mm256_srli_epi32(_mm256_cmpeq_epi32(of_point, object), 31));
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(bins + k), _mm256_or_si256(b, none));
+  }
+  portable_kernels().tag_band(tags, {points.f + k, points.z + k, points.index + k, points.size - k}, own + k,
+                              bins + k);
+}
+
+GRASPD_AVX2 std::size_t keep_depths(const BandPoints& points, const std::int32_t* own, float f_min,
+                                    float f_max, float* out) {
+  const __m256 min = _mm256_set1_ps(f_min), max = _mm256_set1_ps(f_max);
+  std::size_t n = 0;
+  for (std::size_t k = 0; k < points.size; k += 8) {
+    const __m256 f = _mm256_loadu_ps(points.f + k);
+    const __m256 within =
+        _mm256_and_ps(_mm256_cmp_ps(f, min, _CMP_GE_OQ), _mm256_cmp_ps(f, max, _CMP_LE_OQ));
+    const __m256 is_own = _mm256_castsi256_ps(_mm256_cmpgt_epi32(load(own + k), _mm256_setzero_si256()));
+    const unsigned mask = static_cast<unsigned>(_mm256_movemask_ps(_mm256_and_ps(within, is_own))) &
+                          valid_lanes(points.size - k);
+    store(out + n, _mm256_loadu_ps(points.z + k), lanes_of(mask));
+    n += static_cast<std::size_t>(std::popcount(mask));
+  }
+  return n;
+}
+
 }  // namespace
 
 const PointKernels* avx2_kernels() {
-  static constexpr PointKernels kKernels{keep_inside, count_inside, keep_near, number_cells};
+  static constexpr PointKernels kKernels{keep_inside,  count_inside, keep_near,
+                                         number_cells, tag_band,     keep_depths};
   static const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("popcnt");
   return has_avx2 ? &kKernels : nullptr;
 }
