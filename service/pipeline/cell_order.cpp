@@ -4,7 +4,6 @@
 
 #include <tbb/parallel_for.h>
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -70,24 +69,10 @@ void set_cells(const std::vector<Entry<Key>>& entries, CellOrder& order) {
 
 /// Number of cells on an axis, with one to spare at either end; min: the first.
 int cell_range(const std::vector<float>& v, float per_cell, int& min) {
-  // Side by side, because the compiler may not reorder comparisons of its own accord.
-  constexpr std::size_t kLanes = 16;
-  std::array<float, kLanes> low, high;
-  low.fill(v.front());
-  high.fill(v.front());
-  std::size_t i = 0;
-  for (; i + kLanes <= v.size(); i += kLanes)
-    for (std::size_t k = 0; k < kLanes; ++k) {
-      const float c = v[i + k];
-      low[k] = c < low[k] ? c : low[k];
-      high[k] = c > high[k] ? c : high[k];
-    }
-  for (; i < v.size(); ++i) {
-    low[0] = std::min(low[0], v[i]);
-    high[0] = std::max(high[0], v[i]);
-  }
-  min = cell_index(*std::min_element(low.begin(), low.end()), per_cell) - 1;
-  return cell_index(*std::max_element(high.begin(), high.end()), per_cell) + 2 - min;
+  float low = v.front(), high = v.front();
+  point_kernels().extend_bounds(v.data(), v.size(), low, high);
+  min = cell_index(low, per_cell) - 1;
+  return cell_index(high, per_cell) + 2 - min;
 }
 
 /// Number of each point's cell.

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "service/pipeline/point_kernels.hpp"
+
 namespace graspd {
 namespace {
 
@@ -25,7 +27,7 @@ Eigen::Matrix3f looking_along(const Eigen::Vector3f& forward) {
   return axes;
 }
 
-constexpr std::size_t kBlock = 64;
+constexpr std::size_t kBlock = 128;
 
 /// Some points in the axes of the view; plain loops that the compiler can use vectors for.
 struct ViewBlock {
@@ -74,15 +76,18 @@ DepthMap::DepthMap(const PointCloud& cloud)
   to_view_ = looking_along(sum.normalized());
 
   float left = kMaxSlope, right = -kMaxSlope, top = kMaxSlope, bottom = -kMaxSlope;
+  const PointKernels& kernels = point_kernels();
+  float u[kBlock], v[kBlock];
   for (std::size_t from = 0; from < cloud.size(); from += kBlock) {
     const ViewBlock block(to_view_, viewpoint_, cloud, from);
     for (std::size_t k = 0; k < block.size; ++k) {
-      if (block.z[k] <= 0) continue;
-      left = std::min(left, block.x[k] / block.z[k]);
-      right = std::max(right, block.x[k] / block.z[k]);
-      top = std::min(top, block.y[k] / block.z[k]);
-      bottom = std::max(bottom, block.y[k] / block.z[k]);
+      // NaN takes no part in the bounds.
+      const float z = block.z[k] > 0 ? block.z[k] : std::numeric_limits<float>::quiet_NaN();
+      u[k] = block.x[k] / z;
+      v[k] = block.y[k] / z;
     }
+    kernels.extend_bounds(u, block.size, left, right);
+    kernels.extend_bounds(v, block.size, top, bottom);
   }
   left = std::max(left, -kMaxSlope);
   right = std::min(right, kMaxSlope);

@@ -88,7 +88,8 @@ void add_for_parts_without(const Surfaces& surfaces, std::vector<FoundHandle> of
 
 FoundHandles find_handles(const PointCloud& cloud, const PointIndex& index, const Surfaces& surfaces,
                           const Gripper& gripper, const DetectConfig& config) {
-  const CheckedScene scene(cloud, index, surfaces, config);
+  const float leaf = config.downsample.leaf_size_m;
+  const CheckedScene scene{cloud, index, surfaces, leaf * leaf};
   Settler settler(gripper, config.check);
   SearchResult result;
   result.segments = start_reports(surfaces);

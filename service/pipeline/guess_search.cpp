@@ -16,8 +16,7 @@
 namespace graspd {
 namespace {
 
-constexpr float kVoxelCell = 0.02f;  // of the grids for box queries [m]
-constexpr float kPointCell = 0.015f;
+constexpr float kPointCell = 0.015f;  // of the grid for box queries [m]
 constexpr int kVoxelTolerance =
     2;  // stray points a volume may have: counts are absolute, noise does not scale
 constexpr int kPointTolerance = 4;
@@ -46,7 +45,9 @@ Results check_all(const SceneView& scene, const Gripper& gripper, const HandleCh
 std::vector<std::int32_t> spread_to_points(const std::vector<std::int32_t>& of_voxel,
                                            const std::vector<std::uint32_t>& voxel_of_point) {
   std::vector<std::int32_t> of_point(voxel_of_point.size());
-  for (std::size_t i = 0; i < of_point.size(); ++i) of_point[i] = of_voxel[voxel_of_point[i]];
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, of_point.size(), 16384), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i != range.end(); ++i) of_point[i] = of_voxel[voxel_of_point[i]];
+  });
   return of_point;
 }
 
@@ -138,14 +139,6 @@ HandleCheckConfig coarse_limits(HandleCheckConfig limits) {
 
 PointIndex::PointIndex(const PointCloud& cloud) : depth_map(cloud), query(cloud, kPointCell) {}
 
-CheckedScene::CheckedScene(const PointCloud& c, const PointIndex& i, const Surfaces& s,
-                           const DetectConfig& config)
-    : cloud(c),
-      index(i),
-      surfaces(s),
-      voxel_area_m2(config.downsample.leaf_size_m * config.downsample.leaf_size_m),
-      voxel_query(s.cloud, kVoxelCell) {}
-
 GuessSearch::GuessSearch(const CheckedScene& scene, const Objects& objects, const Gripper& gripper,
                          const DetectConfig& config)
     : objects_(objects),
@@ -157,7 +150,7 @@ GuessSearch::GuessSearch(const CheckedScene& scene, const Objects& objects, cons
       input_{scene.surfaces.cloud, scene.surfaces.normals, scene.surfaces.segments, objects,
              scene.surfaces.support},
       voxels_{scene.surfaces.cloud,
-              scene.voxel_query,
+              scene.surfaces.query,
               objects.of_point,
               scene.surfaces.normals,
               nullptr,

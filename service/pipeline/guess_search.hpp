@@ -29,10 +29,6 @@ struct CheckedScene {
   const PointIndex& index;
   const Surfaces& surfaces;
   float voxel_area_m2;
-  BoxQuery voxel_query;
-
-  CheckedScene(const PointCloud& cloud, const PointIndex& index, const Surfaces& surfaces,
-               const DetectConfig& config);
 };
 
 /// A handle whose steadiness has not been looked at: its score is an upper bound.

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/pipeline/object_outline.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <cmath>
 #include <cstdint>
 
@@ -20,12 +22,12 @@ ObjectOutlines::ObjectOutlines(const PointCloud& cloud, const std::vector<std::i
   std::vector<PointCloud> all(objects_.size());
   for (std::size_t i = 0; i < cloud.size(); ++i)
     if (object_of_point[i] >= 0) all[static_cast<std::size_t>(object_of_point[i])].push_back(cloud.point(i));
-  for (std::size_t k = 0; k < all.size(); ++k) {
+  tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t k) {
     const CellOrder order = order_by_cell(all[k], kSpacing);
     std::vector<std::uint32_t> first;
     for (std::size_t c = 0; c < order.num_cells(); ++c) first.push_back(order.cell(c).front());
     objects_[k] = PaddedPoints(all[k], first);
-  }
+  });
 }
 
 bool ObjectOutlines::clearly_too_wide(const Candidate& candidate, const Gripper& gripper,

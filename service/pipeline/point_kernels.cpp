@@ -82,6 +82,13 @@ std::size_t keep_near(const float (&p)[3], float distance_squared, const PointRa
   return static_cast<std::size_t>(end - out);
 }
 
+void extend_bounds(const float* v, std::size_t n, float& low, float& high) {
+  for (std::size_t i = 0; i < n; ++i) {
+    if (v[i] < low) low = v[i];
+    if (v[i] > high) high = v[i];
+  }
+}
+
 void number_cells(const CellGrid& grid, const float* x, const float* y, const float* z, std::size_t n,
                   std::uint32_t* out) {
   const auto from_first = [&grid](float coordinate, int axis) {
@@ -113,7 +120,7 @@ std::size_t keep_depths(const BandPoints& points, const std::int32_t* own, float
 }  // namespace
 
 const PointKernels& portable_kernels() {
-  static constexpr PointKernels kKernels{keep_inside,  count_inside, keep_near,
+  static constexpr PointKernels kKernels{keep_inside,  count_inside, keep_near,  extend_bounds,
                                          number_cells, tag_band,     keep_depths};
   return kKernels;
 }

@@ -61,6 +61,8 @@ struct PointKernels {
   /// must be room for size + kPointPadding.
   std::size_t (*keep_near)(const float (&p)[3], float distance_squared, const PointRange& points,
                            std::uint32_t* out);
+  /// Widens [low, high] to hold n values; passes over NaN.
+  void (*extend_bounds)(const float* v, std::size_t n, float& low, float& high);
   /// Writes the number of the cell of each of n points.
   void (*number_cells)(const CellGrid& grid, const float* x, const float* y, const float* z, std::size_t n,
                        std::uint32_t* out);

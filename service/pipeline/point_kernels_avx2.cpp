@@ -125,6 +125,21 @@ GRASPD_AVX2 std::size_t keep_near(const float (&p)[3], float distance_squared, c
   return n;
 }
 
+GRASPD_AVX2 void extend_bounds(const float* v, std::size_t n, float& low, float& high) {
+  __m256 lows = _mm256_set1_ps(low), highs = _mm256_set1_ps(high);
+  std::size_t i = 0;
+  for (; i + 8 <= n; i += 8) {
+    const __m256 c = _mm256_loadu_ps(v + i);
+    lows = _mm256_min_ps(c, lows);  // the second operand where one is NaN
+    highs = _mm256_max_ps(c, highs);
+  }
+  alignas(32) float lanes[16];
+  _mm256_store_ps(lanes, lows);
+  _mm256_store_ps(lanes + 8, highs);
+  portable_kernels().extend_bounds(lanes, 16, low, high);
+  portable_kernels().extend_bounds(v + i, n - i, low, high);
+}
+
 GRASPD_AVX2 inline __m256i load(const void* from) {
   return _mm256_loadu_si256(static_cast<const __m256i*>(from));
 }
@@ -196,7 +211,7 @@ GRASPD_AVX2 std::size_t keep_depths(const BandPoints& points, const std::int32_t
 }  // namespace
 
 const PointKernels* avx2_kernels() {
-  static constexpr PointKernels kKernels{keep_inside,  count_inside, keep_near,
+  static constexpr PointKernels kKernels{keep_inside,  count_inside, keep_near,  extend_bounds,
                                          number_cells, tag_band,     keep_depths};
   static const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("popcnt");
   return has_avx2 ? &kKernels : nullptr;

@@ -2,10 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/pipeline/surfaces.hpp"
 
+#include <tbb/parallel_invoke.h>
+
 #include <utility>
 
 namespace graspd {
 namespace {
+
+constexpr float kQueryCell = 0.02f;  // of the grid for box queries [m]
 
 /// The support's points have the plane's normal.
 Normals surface_normals(const PointCloud& cloud, const Neighborhoods& neighborhoods,
@@ -39,10 +43,30 @@ bool take_out_container(const Surfaces& s, const DetectConfig& config, std::vect
   return !is_wall.empty();
 }
 
+/// From normals to segments and objects.
+void find_objects(const Neighborhoods& neighborhoods, const DetectConfig& config, const StageObserver& done,
+                  Surfaces& s) {
+  const float leaf = config.downsample.leaf_size_m;
+  const std::vector<std::uint8_t> none;
+  const std::vector<std::uint8_t>& is_support = s.support ? s.support->is_support : none;
+  s.is_edge = find_edge_points(s.normals, neighborhoods, config.smoothness);
+  done("edge_points");
+  Labels labels = grow_regions(s.normals, neighborhoods, s.is_edge, is_support, config.smoothness);
+  done("region_growing");
+  s.segments = build_segments(s.cloud, labels, leaf, config.segments);
+  std::vector<std::uint8_t> is_fixed = is_support;
+  if (take_out_container(s, config, is_fixed, labels))
+    s.segments = build_segments(s.cloud, labels, leaf, config.segments);
+  done("segments");
+  s.objects = group_segments(s.cloud, s.normals, neighborhoods, s.segments, is_fixed, config.objects);
+  if (s.support) mark_support(*s.support, s.objects.of_point);
+  s.wholes = merge_objects(s.cloud, s.normals, neighborhoods, s.objects, config.objects);
+  done("objects");
+}
+
 }  // namespace
 
 Surfaces find_surfaces(const PointCloud& cloud, const DetectConfig& config, const StageObserver& done) {
-  const float leaf = config.downsample.leaf_size_m;
   Surfaces s;
   Downsampled voxels = downsample(cloud, config.downsample);
   s.cloud = std::move(voxels.cloud);
@@ -62,19 +86,8 @@ Surfaces find_surfaces(const PointCloud& cloud, const DetectConfig& config, cons
     s.normals = surface_normals(s.cloud, neighborhoods, s.support);
   }
   done("smoothing");
-  s.is_edge = find_edge_points(s.normals, neighborhoods, config.smoothness);
-  done("edge_points");
-  Labels labels = grow_regions(s.normals, neighborhoods, s.is_edge, is_support, config.smoothness);
-  done("region_growing");
-  s.segments = build_segments(s.cloud, labels, leaf, config.segments);
-  std::vector<std::uint8_t> is_fixed = is_support;
-  if (take_out_container(s, config, is_fixed, labels))
-    s.segments = build_segments(s.cloud, labels, leaf, config.segments);
-  done("segments");
-  s.objects = group_segments(s.cloud, s.normals, neighborhoods, s.segments, is_fixed, config.objects);
-  if (s.support) mark_support(*s.support, s.objects.of_point);
-  s.wholes = merge_objects(s.cloud, s.normals, neighborhoods, s.objects, config.objects);
-  done("objects");
+  tbb::parallel_invoke([&] { s.query = BoxQuery(s.cloud, kQueryCell); },
+                       [&] { find_objects(neighborhoods, config, done, s); });
   return s;
 }
 

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "service/pipeline/box_query.hpp"
 #include "service/pipeline/detect_config.hpp"
 
 namespace graspd {
@@ -18,6 +19,7 @@ using StageObserver = std::function<void(std::string_view stage)>;
 /// Everything that is known of the voxels' surfaces; vectors have one element a voxel.
 struct Surfaces {
   PointCloud cloud;
+  BoxQuery query;                             ///< of the voxels
   std::vector<std::uint32_t> voxel_of_point;  ///< for each point before downsampling
   Normals normals;
   std::vector<std::uint8_t> is_edge;
