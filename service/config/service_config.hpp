@@ -42,6 +42,21 @@ struct LimitsConfig {
   }
 };
 
+/// Who may speak. Off without a key file.
+struct AuthenticationConfig {
+  std::string key_file;
+  float max_age_s = 5;
+
+  template <class Self, class Visitor>
+  static void visit(Self& self, Visitor&& v) {
+    v("key_file", self.key_file, Range{},
+      "keys of graspd-keygen; with it only messages signed with one of them (sealed_t) are taken; empty: all "
+      "are");
+    v("max_age_s", self.max_age_s, Range{0.01, 3600},
+      "signed messages are refused when their time is this far from ours, earlier or later [s]");
+  }
+};
+
 /// What happens at SIGINT or SIGTERM to frames that have arrived and are not answered yet.
 enum class StopPolicy { kFinish, kDrop };
 [[nodiscard]] constexpr std::array<std::string_view, 2> choices(StopPolicy) {
@@ -54,6 +69,7 @@ struct ServiceConfig {
   int threads = 0;
   StopPolicy on_stop = StopPolicy::kFinish;
   LimitsConfig limits;
+  AuthenticationConfig authentication;
   DetectConfig detect;  ///< what sources start from; each source holds its own in full
   std::vector<SourceConfig> sources{SourceConfig{}};
 
@@ -68,6 +84,7 @@ struct ServiceConfig {
       "at SIGINT or SIGTERM, frames that wait or are in work: finish them (for a second at most) or drop "
       "them");
     v("limits", self.limits, "what is refused without looking closer");
+    v("authentication", self.authentication, "who may speak");
     v("detect", self.detect, "the method, for every source");
     v("sources", self.sources, "where clouds come from; of two that match a channel, the first one has it");
   }

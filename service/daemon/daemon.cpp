@@ -37,6 +37,7 @@ Daemon::Daemon(ServiceConfig config, LcmBus& bus, const Clock& clock, Log& log)
                static_cast<std::size_t>(threads_a_frame(config_))),
       arena_(threads_a_frame(config_) - 1 + config_.workers, static_cast<unsigned>(config_.workers)),
       health_(clock),
+      authentication_(config_),
       next_status_(clock.now()),
       workers_(queue_, static_cast<std::size_t>(config_.workers), [this](Job job) { work(std::move(job)); }) {
   subscribe();
@@ -86,16 +87,22 @@ bool Daemon::stop() {
 
 void Daemon::on_packet(std::size_t source, const Packet& packet) {
   if (stopped_) return;
-  if (Stream* stream = stream_for(source, packet.channel)) take(*stream, packet);
+  if (Stream* stream = stream_for(source, packet)) take(*stream, packet);
 }
 
-Stream* Daemon::stream_for(std::size_t source, std::string_view channel) {
+Stream* Daemon::stream_for(std::size_t source, const Packet& packet) {
+  const std::string_view channel = packet.channel;
   if (const auto found = stream_of_channel_.find(channel); found != stream_of_channel_.end())
     return found->second->source == source ? found->second : nullptr;
   const std::string name(channel);
   if (is_own_channel(name)) return nullptr;
   for (std::size_t i = 0; i < source; ++i) {
     if (matches_channel(config_.sources[i].channel, name)) return nullptr;  // that source's handler takes it
+  }
+  if (!authentication_.admits(packet)) {
+    ++ignored_;
+    log_.warning("channel_ignored", {{"channel", name}, {"reason", "not signed by us"}});
+    return nullptr;
   }
   if (streams_.size() >= static_cast<std::size_t>(config_.limits.max_sources)) {
     ++ignored_;
@@ -120,15 +127,19 @@ Stream& Daemon::add_stream(std::size_t source, const std::string& channel) {
 
 void Daemon::take(Stream& stream, const Packet& packet) {
   const DecodeLimits& limits = config_.limits.decode;
-  Job job{&stream, stream.gate.take_ticket(), {peek_header(packet.bytes, limits), {}, arrival_of(packet)}};
+  const auto opened = authentication_.open(packet, clock_.wall_utime());
+  const auto* bytes = std::get_if<std::span<const std::byte>>(&opened);
+  const FrameHeader header = bytes != nullptr ? peek_header(*bytes, limits) : FrameHeader{};
+  Job job{&stream, stream.gate.take_ticket(), {header, {}, arrival_of(packet)}};
   stream.health.received(job.message.header.seq);
   // Here already, so that what cannot be used never takes the place of a frame that can.
-  if (const std::optional<Refusal> refusal = check_cloud(packet.bytes, limits)) {
+  const auto refusal = bytes != nullptr ? check_cloud(*bytes, limits) : std::get<Refusal>(opened);
+  if (refusal) {
     stream.gate.release(job.ticket, stream.processor.refuse(*refusal, job.message.arrival));
     return;
   }
   try {
-    job.message.bytes.assign(packet.bytes.begin(), packet.bytes.end());
+    job.message.bytes.assign(bytes->begin(), bytes->end());
   } catch (const std::bad_alloc&) {
     stream.gate.release(job.ticket, stream.processor.fail(job.message, "out of memory"));
     return;

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "service/config/service_config.hpp"
+#include "service/daemon/authentication.hpp"
 #include "service/daemon/health.hpp"
 #include "service/daemon/stream.hpp"
 #include "service/runtime/clock.hpp"
@@ -47,7 +48,7 @@ class Daemon {
  private:
   void subscribe();
   void on_packet(std::size_t source, const Packet& packet);
-  Stream* stream_for(std::size_t source, std::string_view channel);
+  Stream* stream_for(std::size_t source, const Packet& packet);
   Stream& add_stream(std::size_t source, const std::string& channel);
   void take(Stream& stream, const Packet& packet);
   void work(Job job);
@@ -65,6 +66,7 @@ class Daemon {
   tbb::global_control helpers_;  // one thread less than a frame may have; all workers share them
   tbb::task_arena arena_;        // with a place for each worker, so that none waits for another's frame
   ProcessHealth health_;
+  Authentication authentication_;
   std::vector<std::unique_ptr<Stream>>
       streams_;  // in order of their first message; read and written by the LCM thread
   std::map<std::string, Stream*, std::less<>> stream_of_channel_;

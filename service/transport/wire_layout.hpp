@@ -15,6 +15,7 @@ inline constexpr std::uint64_t kPointCloudFingerprint = 0x19d75af77ba18842;
 inline constexpr std::uint64_t kDepthImageFingerprint = 0xa92f072e49028cde;
 inline constexpr std::uint64_t kHandleListFingerprint = 0x997d5fa0df4f1be1;
 inline constexpr std::uint64_t kStatusFingerprint = 0x633079675b4d9c45;
+inline constexpr std::uint64_t kSealedFingerprint = 0xa70cb71154832893;
 inline constexpr std::size_t kFingerprintBytes = 8;
 
 /// Values of point_field_t.datatype.
