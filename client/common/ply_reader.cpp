@@ -183,7 +183,7 @@ void read_camera(ValueReader& values, const PlyElement& element, PointCloud& clo
   read_element(values, element,
                [&](std::size_t, std::size_t p, double value) { camera[element.properties[p].name] = value; });
   const Eigen::Vector3d viewpoint(camera["view_px"], camera["view_py"], camera["view_pz"]);
-  if (!(viewpoint.cwiseAbs().maxCoeff() < 1e6)) fail("its camera's position is no place");
+  if (!viewpoint.allFinite() || viewpoint.cwiseAbs().maxCoeff() >= 1e6) fail("its camera's position is no place");
   cloud.viewpoint = viewpoint.cast<float>();
   const double width = camera["viewportx"], height = camera["viewporty"];
   if (height < 1 || width * height != static_cast<double>(cloud.size())) return;

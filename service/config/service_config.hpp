@@ -69,9 +69,9 @@ struct ServiceConfig {
   int threads = 0;
   StopPolicy on_stop = StopPolicy::kFinish;
   LimitsConfig limits;
-  AuthenticationConfig authentication;
   DetectConfig detect;  ///< what sources start from; each source holds its own in full
   std::vector<SourceConfig> sources{SourceConfig{}};
+  AuthenticationConfig authentication;
 
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& v) {

@@ -20,16 +20,17 @@ DetectConfig config_for_few_points() {
   DetectConfig config;
   config.segments.min_area_m2 = 0;
   config.support.min_area_m2 = 0.001f;
-  config.support.hypotheses = 20;
+  config.support.hypotheses = 10;
   config.objects.min_border_pairs = 1;
   config.check.min_contact_area_m2 = 0;
-  config.search.all_directions = 4;
+  config.search.all_directions = 2;
+  config.search.seed_spacing_m = 0.05f;
   return config;
 }
 
 DecodeLimits limits_for_few_points() {
   DecodeLimits limits;
-  limits.max_points = 1024;
+  limits.max_points = 256;
   return limits;
 }
 

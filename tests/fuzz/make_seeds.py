@@ -45,21 +45,21 @@ def patch(corner, columns, rows, step=0.003):
 
 
 def detect_seeds():
-    table, box = patch((-0.03, -0.03, 0.6), 20, 20), patch((-0.015, -0.012, 0.55), 10, 8)
+    table, box = patch((-0.02, -0.02, 0.6), 12, 12), patch((-0.01, -0.01, 0.56), 7, 6)
     clouds = {
         "box_on_table": table + box,
         "box_alone": box,
         "line": [(0.001 * i, 0, 0.5) for i in range(60)],
-        "one_place": [(0.1, 0.2, 0.5)] * 80,
+        "one_place": [(0.1, 0.2, 0.5)] * 60,
         "huge_and_tiny": [(1e30, 0, 0.5), (0, -3e38, 0.5), (1e-45, -1e-45, 1e-40), (0, 0, 0.5)] * 4,
         "nothing_finite": [(float("nan"), float("inf"), float("-inf"))] * 6,
         "no_points": [],
     }
     for name, points in clouds.items():
         write("detect", f"cloud_{name}", b"\0" + point_cloud(points))
-    depths = [0 if 4 <= i % 32 < 6 else 550 if 8 <= i % 32 < 20 and 6 <= i // 32 < 18 else 600 for i in range(32 * 24)]
-    write("detect", "image_box_on_table", b"\1" + depth_image(depths, 32))
-    write("detect", "image_steps", b"\3" + depth_image([500 + 4 * (i // 32) for i in range(32 * 24)], 32))
+    depths = [0 if i % 16 == 2 else 560 if 5 <= i % 16 < 11 and 4 <= i // 16 < 10 else 600 for i in range(16 * 14)]
+    write("detect", "image_box_on_table", b"\1" + depth_image(depths, 16))
+    write("detect", "image_steps", b"\3" + depth_image([500 + 4 * (i // 16) for i in range(16 * 14)], 16))
 
 
 def config_seeds():
