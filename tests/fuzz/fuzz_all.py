@@ -58,10 +58,10 @@ def last_number(pattern, text):
 
 def run(options, name):
     """Fuzzes one target; returns (executions, coverage, files in the corpus, finding files, seconds)."""
-    learned, findings = options.work / "corpus" / name, options.work / "findings" / name
+    learned = options.work / "corpus" / name
+    findings = options.work / "findings" / f"{name}-{time.time_ns()}"
     for folder in (learned, findings):
         folder.mkdir(parents=True, exist_ok=True)
-    before = set(findings.iterdir())
     start, executions, coverage, corpus = time.monotonic(), 0, 0, 0
     # libFuzzer ends at a finding: carry on for what is left of the time.
     while (left := options.seconds - (time.monotonic() - start)) >= 1:
@@ -84,9 +84,9 @@ def run(options, name):
         if code == 0:
             break
         log.rename(options.work / f"{name}-{int(time.time())}.finding.log")
-        if not set(findings.iterdir()) - before:
+        if not any(findings.iterdir()):
             sys.exit(f"{name} ended with {code} and no finding:\n{text[-2000:]}")
-    return executions, coverage, corpus, sorted(set(findings.iterdir()) - before), time.monotonic() - start
+    return executions, coverage, corpus, sorted(findings.iterdir()), time.monotonic() - start
 
 
 def merge(options, name):
