@@ -54,7 +54,8 @@ DepthMap::DepthMap(const PointCloud& cloud)
   constexpr float kMinSide = 1e-6f;
   const float area = std::max((right - left) * (bottom - top), kMinSide * kMinSide);
   focal_ = std::sqrt(static_cast<float>(cloud.size()) / area);
-  focal_ = std::min(focal_, static_cast<float>(kMaxSide - 4) / std::max({right - left, bottom - top, kMinSide}));
+  focal_ =
+      std::min(focal_, static_cast<float>(kMaxSide - 4) / std::max({right - left, bottom - top, kMinSide}));
   width_ = static_cast<int>(focal_ * (right - left)) + 3;
   height_ = static_cast<int>(focal_ * (bottom - top)) + 3;
   center_u_ = 1 - focal_ * left;

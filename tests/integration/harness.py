@@ -38,8 +38,9 @@ def _unshare():
     return None
 
 
-def run_tests():
-    """Runs the calling file's tests in a private network with a multicast route; the end of every test file."""
+def run_tests(argv=None):
+    """Runs the calling file's tests in a private network with a multicast route; the end of every test file. argv: for
+    unittest, where the file has options of its own."""
     if _INSIDE not in os.environ:
         command = _unshare()
         if command is None:
@@ -50,7 +51,7 @@ def run_tests():
         setup = 'ip link set lo up && ip route add 239.0.0.0/8 dev lo && exec "$@"'
         arguments = command + ["sh", "-c", setup, "sh", sys.executable, "-B", script] + sys.argv[1:]
         os.execvp(arguments[0], arguments)
-    result = unittest.main(exit=False, verbosity=2).result
+    result = unittest.main(argv=argv, exit=False, verbosity=2).result
     everything_skipped = result.testsRun > 0 and len(result.skipped) == result.testsRun
     sys.exit(1 if not result.wasSuccessful() else SKIPPED if everything_skipped else 0)
 
