@@ -122,8 +122,10 @@ bool is_utf8_text(std::string_view text) {
 }
 
 YAML::Node load_yaml(const std::filesystem::path& file) {
-  const ConfigPlace place{file.string(), ""};
-  const std::string text = read_text(file);
+  return parse_yaml(read_text(file), ConfigPlace{file.string(), ""});
+}
+
+YAML::Node parse_yaml(const std::string& text, const ConfigPlace& place) {
   if (!is_utf8_text(text)) place.fail("not a text file", "bytes that are not UTF-8", "YAML in UTF-8");
   try {
     check_limits(text, place);

@@ -4,22 +4,26 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "service/transport/seal_keys.hpp"
 
 namespace graspd {
 
-Authentication::Authentication(const ServiceConfig& config)
-    : max_bytes_(static_cast<std::size_t>(config.limits.decode.max_message_bytes) + kSealBytes) {
-  const AuthenticationConfig& settings = config.authentication;
-  if (settings.key_file.empty()) return;
-  keys_ = load_seal_keys(settings.key_file);
-  verifier_.emplace(keys_, std::llround(1e6 * static_cast<double>(settings.max_age_s)));
+std::vector<SealKey> Authentication::load_keys(const ServiceConfig& config) {
+  const std::string& file = config.authentication.key_file;
+  return file.empty() ? std::vector<SealKey>() : load_seal_keys(file);
+}
+
+void Authentication::configure(const ServiceConfig& config, std::vector<SealKey> keys) {
+  max_bytes_ = static_cast<std::size_t>(config.limits.decode.max_message_bytes) + kSealBytes;
+  verifier_.configure(std::move(keys),
+                      std::llround(1e6 * static_cast<double>(config.authentication.max_age_s)));
 }
 
 std::variant<std::span<const std::byte>, Refusal> Authentication::open(const Packet& packet,
                                                                        std::int64_t now_utime) {
-  if (!verifier_) return packet.bytes;
+  if (verifier_.keys().empty()) return packet.bytes;
   // Before it costs anything.
   if (too_large(packet))
     return Refusal{RefusalReason::kTooLarge,
@@ -27,12 +31,13 @@ std::variant<std::span<const std::byte>, Refusal> Authentication::open(const Pac
                    0,
                    -1,
                    {}};
-  return verifier_->open(packet.channel, packet.bytes, now_utime);
+  return verifier_.open(packet.channel, packet.bytes, now_utime);
 }
 
 bool Authentication::admits(const Packet& packet) const {
-  if (!verifier_) return true;
-  return !too_large(packet) && std::holds_alternative<Unsealed>(unseal(keys_, packet.channel, packet.bytes));
+  if (verifier_.keys().empty()) return true;
+  return !too_large(packet) &&
+         std::holds_alternative<Unsealed>(unseal(verifier_.keys(), packet.channel, packet.bytes));
 }
 
 bool Authentication::too_large(const Packet& packet) const {

@@ -4,9 +4,9 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <variant>
+#include <vector>
 
 #include "service/config/service_config.hpp"
 #include "service/transport/lcm_bus.hpp"
@@ -14,11 +14,15 @@
 
 namespace graspd {
 
-/// Belongs to the LCM thread.
+/// Belongs to the LCM thread. Takes every message as long as there is no key.
 class Authentication {
  public:
-  /// Reads the key file when there is one; throws std::runtime_error as load_seal_keys.
-  explicit Authentication(const ServiceConfig& config);
+  /// The keys of the configured file, none where none is configured; throws std::runtime_error as
+  /// load_seal_keys.
+  [[nodiscard]] static std::vector<SealKey> load_keys(const ServiceConfig& config);
+
+  /// From now on these hold. What has come before stays known: a reload lets nothing be replayed.
+  void configure(const ServiceConfig& config, std::vector<SealKey> keys);
 
   /// The message as it came, or with keys the one inside its seal; else why it is refused. Each packet may be
   /// opened once. now_utime: the wall clock [us] since 1970.
@@ -32,9 +36,8 @@ class Authentication {
  private:
   [[nodiscard]] bool too_large(const Packet& packet) const;
 
-  std::size_t max_bytes_;
-  std::vector<SealKey> keys_;
-  std::optional<SealVerifier> verifier_;
+  std::size_t max_bytes_ = 0;
+  SealVerifier verifier_;
 };
 
 }  // namespace graspd

@@ -3,7 +3,6 @@
 #include "service/transport/seal_verifier.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <string>
 
 namespace graspd {
@@ -32,10 +31,14 @@ Refusal refuse(RefusalReason reason, const std::string& text) {
 
 }  // namespace
 
-SealVerifier::SealVerifier(std::vector<SealKey> keys, std::int64_t max_age_us)
-    : keys_(std::move(keys)),
-      max_age_us_(max_age_us),
-      forgotten_utime_(std::numeric_limits<std::int64_t>::min()) {}
+SealVerifier::SealVerifier(std::vector<SealKey> keys, std::int64_t max_age_us) {
+  configure(std::move(keys), max_age_us);
+}
+
+void SealVerifier::configure(std::vector<SealKey> keys, std::int64_t max_age_us) {
+  keys_ = std::move(keys);
+  max_age_us_ = max_age_us;
+}
 
 std::variant<std::span<const std::byte>, Refusal> SealVerifier::open(std::string_view channel,
                                                                      std::span<const std::byte> sealed,

@@ -4,6 +4,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <span>
 #include <string_view>
@@ -23,8 +24,12 @@ class SealVerifier {
  public:
   static constexpr std::size_t kMaxSenders = 256;
 
-  /// max_age_us: how far a message's time may be from ours, either way.
+  SealVerifier() = default;
   SealVerifier(std::vector<SealKey> keys, std::int64_t max_age_us);
+
+  /// max_age_us: how far a message's time may be from ours, either way. What has come before stays known.
+  void configure(std::vector<SealKey> keys, std::int64_t max_age_us);
+  [[nodiscard]] const std::vector<SealKey>& keys() const { return keys_; }
 
   /// The message inside, or why not: kUnsigned, kTruncated, kTrailingBytes, kForged, kStale, kReplayed.
   /// now_utime: the wall clock [us] since 1970.
@@ -42,10 +47,11 @@ class SealVerifier {
   [[nodiscard]] Sender* find_or_add(const SealHeader& header);
   void forget_oldest();
 
-  const std::vector<SealKey> keys_;
-  const std::int64_t max_age_us_;
+  std::vector<SealKey> keys_;
+  std::int64_t max_age_us_ = 0;
   std::map<std::int64_t, Sender> senders_;
-  std::int64_t forgotten_utime_;  // no forgotten sender has sent anything later
+  std::int64_t forgotten_utime_ =
+      std::numeric_limits<std::int64_t>::min();  // no forgotten sender has sent anything later
 };
 
 }  // namespace graspd

@@ -25,6 +25,8 @@ std::string_view type_name(std::uint64_t fingerprint) {
       return "status_t";
     case kSealedFingerprint:
       return "sealed_t";
+    case kControlFingerprint:
+      return "control_t";
     default:
       return {};
   }

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The graspd authors
 # SPDX-License-Identifier: BSD-3-Clause
 """With a key file only signed messages are taken, each once: everything else is refused and counted by its reason."""
+import signal
+
 from harness import CLOUDS, HANDLES, TYPES, run_tests
 from sealing import Sealer, now_us
 from traffic import TrafficTest
@@ -8,6 +10,7 @@ from traffic import TrafficTest
 LIST = TYPES["handle_list_t"].constants
 GOOD = {LIST["OK"], LIST["NO_HANDLES"]}
 CONFIG = """
+lcm: {{control_channel: CONTROL}}
 authentication: {{key_file: "{key_file}", max_age_s: 60}}
 sources:
   - {{name: camera, channel: GRASPD_CLOUD, policy: all, queue_length: 200}}
@@ -98,6 +101,42 @@ class Authentication(TrafficTest):
                          "--type", "depth")
         self.assertTrue({a.status for a in self.await_answers(self.bus, 4)} <= GOOD)
         self.assert_counted()
+
+    def control(self, number, text):
+        return TYPES["control_t"].encode(utime=0, id=number, command=TYPES["control_t"].constants["SET"], text=text)
+
+    def test_control_messages_must_be_signed_too(self):
+        self.start_with_key()
+        text = "limits: {max_points: 1000}"
+        replayed = self.sealer.seal("CONTROL", self.control(1, text))
+        self.bus.publish("CONTROL", replayed)
+        self.await_status(self.bus, lambda s: s.config_revision == 2, "the signed one, taken")
+        for bad in (self.control(2, text), replayed, self.sealer.seal(CLOUDS, self.control(3, text))):
+            self.bus.messages.clear()
+            self.bus.publish("CONTROL", bad)
+            status = self.await_status(self.bus, lambda s: "sealed_t" in s.config_error, "the refusal in the status")
+            self.assertEqual((status.config_revision, status.control_id), (2, 1))
+            self.bus.publish("CONTROL", self.sealer.seal("CONTROL", self.control(1, text)))  # known: nothing to do
+            self.bus.publish("CONTROL", self.sealer.seal("CONTROL", b"nonsense"))
+            self.await_status(self.bus, lambda s: "no valid control_t" in s.config_error, "another error")
+
+    def test_keys_change_at_a_reload(self):
+        daemon = self.start_with_key()
+        self.assertIn(self.send([self.sealer.seal(CLOUDS, self.message)])[0].status, GOOD)
+        old, new = self.sealer, Sealer(bytes(range(32)))
+        both = new.key.hex() + "\n" + old.key.hex() + "\n"
+        for text, takes_old in ((both, True), (new.key.hex(), False)):
+            self.key_file.write_text(text, encoding="ascii")
+            revision = self.await_status(self.bus, lambda s: True, "a status").config_revision
+            daemon.process.send_signal(signal.SIGHUP)
+            self.await_status(self.bus, lambda s, r=revision: s.config_revision == r + 1, "the reload")
+            answers = self.send([new.seal(CLOUDS, self.message), old.seal(CLOUDS, self.message)])
+            self.assertIn(answers[0].status, GOOD)
+            self.assertEqual(answers[1].status in GOOD, takes_old)
+        self.key_file.chmod(0o666)
+        daemon.process.send_signal(signal.SIGHUP)
+        self.await_status(self.bus, lambda s: "others may read" in s.config_error, "the refusal in the status")
+        self.assertIn(self.send([new.seal(CLOUDS, self.message)])[0].status, GOOD)
 
     def test_keys_that_cannot_be_used_end_at_once(self):
         config = self.write_config(CONFIG.format(key_file=self.key_file))

@@ -1,25 +1,27 @@
 // SPDX-FileCopyrightText: 2026 The graspd authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "service/daemon/stop_signals.hpp"
+#include "service/daemon/signals.hpp"
 
 #include <ctime>
 
 namespace graspd {
 
-StopSignals::StopSignals() {
+Signals::Signals() {
   sigemptyset(&signals_);
-  sigaddset(&signals_, SIGINT);
-  sigaddset(&signals_, SIGTERM);
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals_, number);
   pthread_sigmask(SIG_BLOCK, &signals_, nullptr);
+  std::signal(SIGPIPE, SIG_IGN);
 }
 
-std::string_view StopSignals::received() const {
+std::string_view Signals::received() const {
   const timespec at_once{0, 0};
   switch (sigtimedwait(&signals_, nullptr, &at_once)) {
     case SIGINT:
       return "SIGINT";
     case SIGTERM:
       return "SIGTERM";
+    case SIGHUP:
+      return "SIGHUP";
     default:
       return "";
   }
