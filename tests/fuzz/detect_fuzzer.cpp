@@ -61,7 +61,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const DetectConfig config = (data[0] & 2) != 0 ? DetectConfig{} : config_for_few_points();
   const Detection detection = detect_handles(frame->cloud, Gripper{}, config);
   check_detection(detection, frame->cloud);
-  HandleListHeader header{frame->utime, frame->seq, "GRASPD_CLOUD", frame->frame_name, 0, "", 0, {}};
+  HandleListHeader header;
+  header.utime = frame->utime;
+  header.seq = frame->seq;
+  header.frame_name = frame->frame_name;
   header.status = wire_status(detection.status);
   const auto list = encode(make_handle_list(header, Gripper{}, detection, Eigen::Isometry3f::Identity()));
   require(decode_handle_list(list).has_value());

@@ -59,7 +59,8 @@ class Faults(Trial):
         before = sum(c == out for c, _ in self.answers)
         for message in messages:
             self.send_paced(self.listener, channel, message)
-        self.until(lambda: sum(c == out for c, _ in self.answers) >= before + len(messages), f"{len(messages)} answers")
+        while (count := sum(c == out for c, _ in self.answers)) < before + len(messages):  # however long it takes
+            self.until(lambda n=count: sum(c == out for c, _ in self.answers) > n, "the next answer")
         return [a for c, a in self.answers if c == out][before:]
 
     def names(self, *messages):

@@ -48,7 +48,7 @@ class Listener(Bus):
 
     def __init__(self, use, channels, address="127.0.0.1"):
         super().__init__(address)
-        self._use, self._channels, self._skipped = use, channels, {}
+        self._use, self._channels, self._skipped, self._unlooked_bytes = use, channels, {}, 0
 
     def receive(self, seconds):
         super().receive(seconds)
@@ -56,6 +56,14 @@ class Listener(Bus):
             if channel in self._channels:
                 self._use(channel, data)
         self.messages.clear()
+
+    def send_datagram(self, data):
+        """A large message waits for its receivers in between, too."""
+        self._unlooked_bytes += len(data)
+        if self._unlooked_bytes > 1 << 19:
+            wait_until(lambda: (self.receive(0), waiting_bytes() < 1 << 20)[1], "the receivers")
+            self._unlooked_bytes = 0
+        super().send_datagram(data)
 
     def _take_fragment(self, data, key):
         """Without putting together what nobody wants."""

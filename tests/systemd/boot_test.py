@@ -29,7 +29,7 @@ After=multi-user.target
 Type=oneshot
 ExecStart=/bin/bash /boot_script.sh
 ExecStopPost=/bin/systemctl poweroff --force --force
-StandardOutput=file:/report.log
+StandardOutput=append:/report.log
 StandardError=inherit
 [Install]
 WantedBy=multi-user.target

@@ -39,7 +39,7 @@ class Unit(unittest.TestCase):
     def test_what_is_promised(self):
         text = UNIT.read_text(encoding="utf-8")
         for line in ("Type=notify", "DynamicUser=yes", "CapabilityBoundingSet=", "IPAddressDeny=any", "Restart=on-failure",
-                     "IPAddressAllow=localhost", "SystemCallFilter=@system-service", "ExecReload=/bin/kill -HUP $MAINPID"):
+                     "IPAddressAllow=localhost", "SystemCallFilter=@system-service", "ExecReload=/bin/sh -c 'kill -HUP $MAINPID'"):
             self.assertIn(line + "\n", text)
         for key in ("WatchdogSec", "MemoryMax", "IPAddressAllow=239."):
             self.assertRegex(text, rf"(?m)^{key}")
