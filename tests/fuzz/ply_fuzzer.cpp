@@ -5,6 +5,6 @@
 #include "tests/fuzz/cloud_file_fuzzer.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  graspd::check_cloud_file(data, size, graspd::parse_ply);
+  graspd::check_cloud_file(data, size, [](auto file) { return graspd::parse_ply(file); });
   return 0;
 }
