@@ -50,9 +50,8 @@ struct LimitsConfig {
     DecodeLimits::visit(self.decode, v);
     v("max_sources", self.max_sources, Range{1, 1024},
       "channels served at most; messages on further channels are counted and ignored");
-    v("max_waiting_bytes", self.max_waiting_bytes, Range{1 << 20, 2147483647},
-      "messages that wait or are in work, of all sources together [bytes]; beyond, a frame is answered "
-      "OVERLOADED");
+    v("max_waiting_bytes", self.max_waiting_bytes, Range{1 << 20, 2e9},
+      "messages of all sources that wait or are in work [bytes]; frames beyond are answered OVERLOADED");
     v("max_waiting_answers", self.max_waiting_answers, Range{2, 100000},
       "answers of a channel that wait for that of an earlier frame; beyond, that frame is given up");
     v("max_log_lines", self.max_log_lines, Range{16, 100000},
@@ -82,6 +81,8 @@ enum class StopPolicy { kFinish, kDrop };
 }
 
 struct ServiceConfig {
+  ServiceConfig() = default;
+
   LcmConfig lcm;
   int workers = 2;
   int threads = 0;
@@ -103,9 +104,8 @@ struct ServiceConfig {
       "at SIGINT or SIGTERM, frames that wait or are in work: finish them (for a second at most) or drop "
       "them");
     v("watchdog_s", self.watchdog_s, Range{0, 3600},
-      "a frame in work for longer is answered FAILED and the state is STUCK; systemd's watchdog is left "
-      "alone then "
-      "[s]; 0: never");
+      "a frame in work for longer is answered FAILED, and systemd's watchdog is not fed any more [s]; 0: "
+      "never");
     v("limits", self.limits, "what is refused without looking closer");
     v("authentication", self.authentication, "who may speak");
     v("detect", self.detect, "the method, for every source");

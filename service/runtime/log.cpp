@@ -5,19 +5,13 @@
 #include <spdlog/async.h>
 #include <spdlog/logger.h>
 #include <spdlog/sinks/base_sink.h>
-#include <unistd.h>
+#include <spdlog/sinks/stdout_sinks.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <chrono>
-#include <future>
 #include <thread>
-#include <utility>
 
 namespace graspd {
 namespace {
-
-constexpr std::chrono::milliseconds kLastLines{300};
 
 class FunctionSink final : public spdlog::sinks::base_sink<std::mutex> {
  public:
@@ -30,22 +24,6 @@ class FunctionSink final : public spdlog::sinks::base_sink<std::mutex> {
   void flush_() override {}
 
   std::function<void(const std::string&)> write_;
-};
-
-/// Not the C library's stderr: a thread that is stuck in it would hold up the end of the process.
-class StandardErrorSink final : public spdlog::sinks::base_sink<std::mutex> {
- private:
-  void sink_it_(const spdlog::details::log_msg& message) override {
-    spdlog::memory_buf_t line;
-    formatter_->format(message, line);
-    for (std::size_t done = 0; done < line.size();) {
-      const ssize_t n = ::write(STDERR_FILENO, line.data() + done, line.size() - done);
-      if (n < 0 && errno == EINTR) continue;
-      if (n <= 0) return;  // nobody is there to be told
-      done += static_cast<std::size_t>(n);
-    }
-  }
-  void flush_() override {}
 };
 
 bool is_plain(char c) {
@@ -73,8 +51,9 @@ std::string format_fields(std::string_view event, std::initializer_list<LogField
 Log::Log(const Clock& clock, std::size_t max_lines)
     : clock_(clock),
       writer_(std::make_shared<spdlog::details::thread_pool>(max_lines, 1)),
-      logger_(std::make_shared<spdlog::async_logger>("graspd", std::make_shared<StandardErrorSink>(), writer_,
-                                                     spdlog::async_overflow_policy::overrun_oldest)) {
+      logger_(
+          std::make_shared<spdlog::async_logger>("graspd", std::make_shared<spdlog::sinks::stderr_sink_mt>(),
+                                                 writer_, spdlog::async_overflow_policy::overrun_oldest)) {
   logger_->set_pattern("%Y-%m-%dT%H:%M:%S.%eZ level=%l %v", spdlog::pattern_time_type::utc);
   logger_->flush_on(spdlog::level::info);
 }
@@ -83,19 +62,7 @@ Log::Log(const Clock& clock, std::function<void(const std::string&)> sink)
     : clock_(clock),
       logger_(std::make_shared<spdlog::logger>("graspd", std::make_shared<FunctionSink>(std::move(sink)))) {}
 
-/// Whoever reads the log may have stopped reading: then its last lines are lost, and nobody waits for ever.
-Log::~Log() {
-  if (!writer_) return;
-  std::promise<void> written;
-  std::future<void> end = written.get_future();
-  std::thread([writer = std::move(writer_), logger = std::move(logger_),
-               done = std::move(written)]() mutable {
-    logger.reset();
-    writer.reset();  // joins the thread that writes
-    done.set_value();
-  }).detach();
-  (void)end.wait_for(kLastLines);
-}
+Log::~Log() = default;
 
 void Log::info(std::string_view event, std::initializer_list<LogField> fields) {
   write(LogLevel::kInfo, event, fields);
@@ -157,8 +124,16 @@ std::vector<LogReport> Log::reports() const {
   return reports;
 }
 
-void Log::flush() {
+bool Log::flush() {
   logger_->flush();
+  if (!writer_) return true;
+  // The writer takes one after the other: when it has taken the flush, all before it is written.
+  const auto deadline = std::chrono::steady_clock::now() + kFlushLimit;
+  while (writer_->queue_size() > 0) {
+    if (std::chrono::steady_clock::now() > deadline) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return true;
 }
 
 std::int64_t Log::lost() const {
