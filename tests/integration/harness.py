@@ -80,7 +80,7 @@ class Program:
     def __init__(self, folder, name, *arguments, environment=None, stdin=subprocess.DEVNULL):
         self.name = name
         number = len(list(pathlib.Path(folder).glob("*.out")))
-        self._paths = [pathlib.Path(folder) / f"{number:02}-{name}.{end}" for end in ("out", "err")]
+        self._paths = [pathlib.Path(folder) / f"{number:02}-{pathlib.Path(name).name}.{end}" for end in ("out", "err")]
         with open(self._paths[0], "wb") as out, open(self._paths[1], "wb") as err:
             self.process = subprocess.Popen([str(BIN / name), *map(str, arguments)], stdin=stdin, stdout=out,
                                             stderr=err, env={**os.environ, **(environment or {})})

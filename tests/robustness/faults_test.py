@@ -8,7 +8,7 @@ import signal
 import struct
 import subprocess
 
-from trial import CLOUDS, HANDLES, LIST, PROCESSED, STATUS, TYPES, Process, Trial, options_of, run_trial, wait_until
+from trial import BIN, CLOUDS, HANDLES, LIST, PROCESSED, STATUS, TYPES, Process, Trial, options_of, run_trial, wait_until
 
 OPTIONS = options_of(__doc__, only="")
 CONFIG = """
@@ -391,7 +391,6 @@ class Faults(Trial):
 
     def run_beside(self, stderr):
         """A daemon with this standard error, asked for much that it would log; then one as before."""
-        from harness import BIN
         process = subprocess.Popen([str(BIN / "graspd"), "--config", str(self.config)], stderr=stderr)
         self.addCleanup(process.wait)
         self.addCleanup(process.kill)
