@@ -1,15 +1,16 @@
 # SPDX-FileCopyrightText: 2026 The graspd authors
 # SPDX-License-Identifier: BSD-3-Clause
 """The daemon under valgrind: clouds, images, nonsense, a reload and the end; no error, nothing lost. Takes minutes: by hand."""
+import pathlib
 import shutil
 import signal
 
 from trial import BIN, CLOUDS, HANDLES, STATUS, TYPES, Trial, options_of, run_trial, table, wait_until
 
-OPTIONS = options_of(__doc__, frames=3, width=96)
+OPTIONS = options_of(__doc__, frames=2, width=160)
 CONFIG = "sources: [{name: camera, channel: GRASPD_CLOUD, policy: all}]\n"
 VALGRIND = ["--error-exitcode=99", "--leak-check=full", "--errors-for-leak-kinds=definite", "--show-leak-kinds=definite",
-            "--track-fds=no", "--num-callers=20", "--quiet"]
+            "--num-callers=20", "--quiet", f"--suppressions={pathlib.Path(__file__).resolve().parent}/valgrind.supp"]
 
 
 class Memcheck(Trial):

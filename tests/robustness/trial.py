@@ -15,6 +15,8 @@ from lcm_udp import Bus  # noqa: E402
 from traffic import TrafficTest, waiting_bytes  # noqa: E402
 
 LIST = TYPES["handle_list_t"].constants
+CLOUD, IMAGE = TYPES["point_cloud_t"], TYPES["depth_image_t"]
+MEGABYTE = 1 << 20
 NAME_OF_STATUS = {value: key for key, value in LIST.items()}
 PROCESSED = {LIST["OK"], LIST["NO_HANDLES"]}
 
