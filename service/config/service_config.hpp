@@ -50,13 +50,27 @@ struct LimitsConfig {
     DecodeLimits::visit(self.decode, v);
     v("max_sources", self.max_sources, Range{1, 1024},
       "channels served at most; messages on further channels are counted and ignored");
-    v("max_waiting_bytes", self.max_waiting_bytes, Range{1 << 20, 2147483647},
-      "messages that wait or are in work, of all sources together [bytes]; beyond, a frame is answered "
-      "OVERLOADED");
+    v("max_waiting_bytes", self.max_waiting_bytes, Range{1 << 20, 2e9},
+      "messages of all sources that wait or are in work [bytes]; frames beyond are answered OVERLOADED");
     v("max_waiting_answers", self.max_waiting_answers, Range{2, 100000},
       "answers of a channel that wait for that of an earlier frame; beyond, that frame is given up");
     v("max_log_lines", self.max_log_lines, Range{16, 100000},
       "lines that wait to be written to the log; beyond, the oldest are lost and counted");
+  }
+};
+
+/// Who may speak. Off without a key file.
+struct AuthenticationConfig {
+  std::string key_file;
+  float max_age_s = 5;
+
+  template <class Self, class Visitor>
+  static void visit(Self& self, Visitor&& v) {
+    v("key_file", self.key_file, Range{},
+      "keys of graspd-keygen; with it only messages signed with one of them (sealed_t) are taken; empty: all "
+      "are");
+    v("max_age_s", self.max_age_s, Range{0.01, 3600},
+      "signed messages are refused when their time is this far from ours, earlier or later [s]");
   }
 };
 
@@ -67,6 +81,8 @@ enum class StopPolicy { kFinish, kDrop };
 }
 
 struct ServiceConfig {
+  ServiceConfig() = default;
+
   LcmConfig lcm;
   int workers = 2;
   int threads = 0;
@@ -75,6 +91,7 @@ struct ServiceConfig {
   LimitsConfig limits;
   DetectConfig detect;  ///< what sources start from; each source holds its own in full
   std::vector<SourceConfig> sources{SourceConfig{}};
+  AuthenticationConfig authentication;
 
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& v) {
@@ -87,10 +104,10 @@ struct ServiceConfig {
       "at SIGINT or SIGTERM, frames that wait or are in work: finish them (for a second at most) or drop "
       "them");
     v("watchdog_s", self.watchdog_s, Range{0, 3600},
-      "a frame in work for longer is answered FAILED and the state is STUCK; systemd's watchdog is left "
-      "alone then "
-      "[s]; 0: never");
+      "a frame in work for longer is answered FAILED, and systemd's watchdog is not fed any more [s]; 0: "
+      "never");
     v("limits", self.limits, "what is refused without looking closer");
+    v("authentication", self.authentication, "who may speak");
     v("detect", self.detect, "the method, for every source");
     v("sources", self.sources, "where clouds come from; of two that match a channel, the first one has it");
   }

@@ -57,9 +57,7 @@ struct DegradeConfig {
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& v) {
     v("voxel_m", self.voxel_m, Range{0, 0.1},
-      "edge of a voxel while degraded [m], more than detect.downsample.leaf_size_m; neighbourhoods grow as "
-      "much; "
-      "0: never");
+      "edge of a voxel while degraded, more than leaf_size_m; neighbourhoods grow as much [m]; 0: never");
     v("above_ms", self.above_ms, Range{1, 60000},
       "when the mean latency, arrival to answer, of the last 8 frames is above this [ms]");
     v("above_drop_share", self.above_drop_share, Range{0, 1},
@@ -104,8 +102,7 @@ struct SourceConfig {
       "latest: a newer frame replaces one that waits; all: frames wait in turn");
     v("queue_length", self.queue_length, Range{1, 1000}, "frames that wait at most, with policy all");
     v("deadline_ms", self.deadline_ms, Range{0, 600000},
-      "a frame that is not answered so long after its arrival is given up and answered OVERLOADED [ms]; 0: "
-      "none");
+      "a frame not answered so long after its arrival is given up and answered OVERLOADED [ms]; 0: none");
     v("degrade", self.degrade, "coarser voxels while frames cannot keep up");
     v("gripper", self.gripper, Range{}, "name of a file in grippers/, or its path, or its keys");
     v("sensor", self.sensor, Range{},

@@ -21,6 +21,7 @@ class ConfigControl {
   using Load = std::function<ServiceConfig(const std::string& overrides)>;
   /// SETs and RESETs that can be taken back.
   static constexpr std::size_t kMostUndos = 32;
+  static constexpr std::size_t kLongestError = 1000;
 
   struct Proposal {
     ServiceConfig config;
@@ -36,7 +37,8 @@ class ConfigControl {
 
   /// A revision more, and no error.
   void accept(Proposal proposal);
-  void refuse(const std::string& why) { error_ = why; }
+  /// The reason is kept up to kLongestError characters: a status holds no more.
+  void refuse(const std::string& why) { error_ = why.substr(0, kLongestError); }
   /// The newest message that was answered, either way.
   void answered(std::int64_t control_id) { control_id_ = control_id; }
 

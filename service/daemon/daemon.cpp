@@ -97,6 +97,8 @@ void Daemon::on_packet(const std::string& subscription, const Packet& packet) {
   if (stopped_ || subscription == config_->lcm.status_channel) return;
   if (subscription == config_->lcm.control_channel) {
     on_control(packet);
+  } else if (!table_.knows(packet.channel) && !authentication_.admits(packet)) {
+    table_.ignore(packet.channel, "not signed with a key of ours");
   } else if (const auto stream = table_.find(subscription, packet.channel)) {
     take(stream, packet);
   }
@@ -105,24 +107,25 @@ void Daemon::on_packet(const std::string& subscription, const Packet& packet) {
 void Daemon::take(const std::shared_ptr<Stream>& stream, const Packet& packet) {
   hold_answers_within_limit(*stream);
   const DecodeLimits& limits = config_->limits.decode;
-  Job job{stream,
-          stream->processor,
-          stream->gate.take_ticket(),
-          {peek_header(packet.bytes, limits), {}, arrival_of(packet)}};
+  const auto opened = authentication_.open(packet, clock_.wall_utime());
+  const auto* bytes = std::get_if<std::span<const std::byte>>(&opened);
+  const FrameHeader header = bytes != nullptr ? peek_header(*bytes, limits) : FrameHeader{};
+  Job job{stream, stream->processor, stream->gate.take_ticket(), {header, {}, arrival_of(packet)}};
   stream->health.received(job.message.header.seq, clock_.now());
   // Here already, so that what cannot be used never takes the place of a frame that can.
-  if (const std::optional<Refusal> refusal = check_cloud(packet.bytes, limits)) {
+  const auto refusal = bytes != nullptr ? check_cloud(*bytes, limits) : std::get<Refusal>(opened);
+  if (refusal) {
     stream->gate.release(job.ticket, job.processor->refuse(*refusal, job.message.arrival));
     return;
   }
-  auto lease = take_memory(*stream, packet.bytes.size());
+  auto lease = take_memory(*stream, bytes->size());
   if (!lease) {
     drop(job, DropReason::kMemory, "too many bytes wait");
     return;
   }
   job.lease = std::move(*lease);
   try {
-    job.message.bytes.assign(packet.bytes.begin(), packet.bytes.end());
+    job.message.bytes.assign(bytes->begin(), bytes->end());
   } catch (const std::bad_alloc&) {
     stream->gate.release(job.ticket, job.processor->fail(job.message, "out of memory"));
     return;

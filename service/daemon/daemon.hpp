@@ -18,6 +18,7 @@
 #include <string>
 
 #include "service/config/service_config.hpp"
+#include "service/daemon/authentication.hpp"
 #include "service/daemon/config_control.hpp"
 #include "service/daemon/health.hpp"
 #include "service/daemon/stream.hpp"
@@ -87,6 +88,7 @@ class Daemon {
   Log& log_;
   std::shared_ptr<const ServiceConfig> config_;
   ConfigControl control_;
+  Authentication authentication_;
   std::set<std::string> subscriptions_;
   std::deque<control_t> controls_;  // that have arrived and are not obeyed yet
   tbb::global_control helpers_;     // one thread less than a frame may have; all workers share them

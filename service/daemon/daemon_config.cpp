@@ -34,6 +34,7 @@ void keep(const char* key, const T& old, T& wanted, std::string& changed) {
 }  // namespace
 
 void Daemon::adopt(std::shared_ptr<const ServiceConfig> config, std::int64_t revision) {
+  std::vector<SealKey> keys = Authentication::load_keys(*config);
   const std::set<std::string> wanted = subscriptions_of(*config);
   std::vector<std::string> added;
   try {
@@ -50,6 +51,7 @@ void Daemon::adopt(std::shared_ptr<const ServiceConfig> config, std::int64_t rev
     if (!wanted.contains(channel)) bus_.unsubscribe(channel);
   subscriptions_ = wanted;
   config_ = std::move(config);
+  authentication_.configure(*config_, std::move(keys));
   for (const Job& job : table_.configure(config_, revision))
     drop(job, DropReason::kReconfigured, "the configuration has changed");
 }
@@ -84,7 +86,13 @@ void Daemon::keep_fixed_settings(ServiceConfig& config) {
 }
 
 void Daemon::on_control(const Packet& packet) {
-  auto control = decode_control(packet.bytes);
+  const auto opened = authentication_.open(packet, clock_.wall_utime());
+  if (const auto* refusal = std::get_if<Refusal>(&opened)) {
+    control_.refuse(refusal->text);
+    log_.warning("control_refused", {{"reason", refusal->text}});
+    return;
+  }
+  auto control = decode_control(std::get<std::span<const std::byte>>(opened));
   if (!control) {
     control_.refuse("a message on the control channel is no valid control_t");
     log_.warning("control_refused", {{"reason", control_.error()}});

@@ -51,7 +51,6 @@ class FrameProcessor {
 
   /// When the frame is too late; nothing: never.
   [[nodiscard]] std::optional<Clock::TimePoint> deadline(const FrameMessage& message) const;
-  [[nodiscard]] int deadline_ms() const { return source_.deadline_ms; }
 
  private:
   struct Cancelled {};

@@ -101,7 +101,7 @@ class ServiceLoop {
   }
 
   void reload() {
-    notifier_.reloading();
+    if (ready_) notifier_.reloading();
     daemon_.reload();
     if (ready_) notifier_.ready();
   }
@@ -123,9 +123,10 @@ class ServiceLoop {
     notifier_.stopping();
     const bool finished = daemon_.stop();
     log_.info("stopped", {{"reason", reason}, {"finished", finished ? "true" : "false"}});
-    log_.flush();
-    // The destructors would wait for the frame that is still in work, longer than a supervisor does.
-    if (!finished) std::_Exit(exit_code);
+    const bool written = log_.flush();
+    // The destructors would wait for the frame that is still in work, or for whoever does not read the log,
+    // longer than a supervisor does.
+    if (!finished || !written) std::_Exit(exit_code);
     return exit_code;
   }
 

@@ -43,12 +43,16 @@ std::shared_ptr<Stream> StreamTable::find(const std::string& subscription, std::
   // Another source's subscription brings the same message.
   if (source == sources.size() || sources[source].channel != subscription) return nullptr;
   if (streams_.size() >= static_cast<std::size_t>(config_->limits.max_sources)) {
-    ++ignored_;
-    log_.warning("channel_ignored", {{"channel", name}, {"max_sources", config_->limits.max_sources}});
+    ignore(name, "more than limits.max_sources, " + std::to_string(config_->limits.max_sources));
     return nullptr;
   }
   log_.info("channel_found", {{"source", sources[source].name}, {"channel", name}});
   return add(source, name);
+}
+
+void StreamTable::ignore(std::string_view channel, const std::string& reason) {
+  ++ignored_;
+  log_.warning("channel_ignored", {{"channel", std::string(channel)}, {"reason", reason}});
 }
 
 std::shared_ptr<Stream> StreamTable::add(std::size_t source, const std::string& channel) {

@@ -32,9 +32,13 @@ class StreamTable {
   /// another's on that channel, the daemon's own, or of a channel too many.
   [[nodiscard]] std::shared_ptr<Stream> find(const std::string& subscription, std::string_view channel);
 
+  [[nodiscard]] bool knows(std::string_view channel) const { return by_channel_.contains(channel); }
+  /// Counts a message that is not looked at.
+  void ignore(std::string_view channel, const std::string& reason);
+
   /// In order of their first message.
   [[nodiscard]] const std::vector<std::shared_ptr<Stream>>& streams() const { return streams_; }
-  /// Messages on channels too many.
+  /// Messages that were not looked at, channels too many among them.
   [[nodiscard]] std::int64_t ignored() const { return ignored_; }
 
  private:

@@ -8,6 +8,7 @@
 #include <spdlog/sinks/stdout_sinks.h>
 
 #include <algorithm>
+#include <thread>
 
 namespace graspd {
 namespace {
@@ -123,8 +124,16 @@ std::vector<LogReport> Log::reports() const {
   return reports;
 }
 
-void Log::flush() {
+bool Log::flush() {
   logger_->flush();
+  if (!writer_) return true;
+  // The writer takes one after the other: when it has taken the flush, all before it is written.
+  const auto deadline = std::chrono::steady_clock::now() + kFlushLimit;
+  while (writer_->queue_size() > 0) {
+    if (std::chrono::steady_clock::now() > deadline) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return true;
 }
 
 std::int64_t Log::lost() const {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One line an event on standard error, as key=value, and not too many of one kind.
 #pragma once
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -56,6 +57,7 @@ class Log {
 
   static constexpr std::size_t kLongestReport = 1000;
   static constexpr std::size_t kMostReports = 16;
+  static constexpr std::chrono::milliseconds kFlushLimit{300};
 
   /// To standard error.
   Log(const Clock& clock, std::size_t max_lines);
@@ -69,8 +71,8 @@ class Log {
 
   /// Warnings and errors by kind, those of the last time first, kMostReports at most; held back or not.
   [[nodiscard]] std::vector<LogReport> reports() const;
-  /// Has the lines written that wait, as soon as may be.
-  void flush();
+  /// Waits until all lines are written, for kFlushLimit at most; false: nobody reads them.
+  bool flush();
   /// Lines that were lost because too many waited.
   [[nodiscard]] std::int64_t lost() const;
 

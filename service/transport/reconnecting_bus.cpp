@@ -28,8 +28,16 @@ ReconnectingBus::ReconnectingBus(std::string url, const RetryTimes& times, Event
 ReconnectingBus::~ReconnectingBus() = default;
 
 void ReconnectingBus::subscribe(const std::string& channel_regex, Handler handler, int queue_capacity) {
-  if (bus_) bus_->subscribe(channel_regex, handler, queue_capacity);
-  subscriptions_.push_back({channel_regex, std::move(handler), queue_capacity});
+  subscriptions_.push_back({channel_regex, handler, queue_capacity});
+  if (!bus_) return;
+  try {
+    bus_->subscribe(channel_regex, std::move(handler), queue_capacity);
+  } catch (const BusUnavailable& error) {
+    lose(error.what());
+  } catch (...) {
+    subscriptions_.pop_back();
+    throw;
+  }
 }
 
 void ReconnectingBus::unsubscribe(const std::string& channel_regex) {

@@ -16,6 +16,7 @@ inline constexpr std::uint64_t kDepthImageFingerprint = 0xa92f072e49028cde;
 inline constexpr std::uint64_t kHandleListFingerprint = 0x9bf98642e84fd318;
 inline constexpr std::uint64_t kStatusFingerprint = 0x3e93e45b223e4491;
 inline constexpr std::uint64_t kControlFingerprint = 0x1a187596f91f8882;
+inline constexpr std::uint64_t kSealedFingerprint = 0xa70cb71154832893;
 inline constexpr std::size_t kFingerprintBytes = 8;
 
 /// Values of point_field_t.datatype.

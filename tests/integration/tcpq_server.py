@@ -7,6 +7,7 @@ import struct
 import threading
 
 HELLO = struct.pack(">II", 0x287617FA, 0x0100)
+CLIENTS_HELLO = struct.pack(">II", 0x287617FB, 0x0100)
 PUBLISH, SUBSCRIBE, UNSUBSCRIBE = 1, 2, 3
 
 
@@ -73,7 +74,7 @@ class TcpqServer:
     def _serve(self, client):
         try:
             client.sendall(HELLO)
-            if self._take(client, 8) != HELLO:
+            if self._take(client, 8) != CLIENTS_HELLO:
                 return
             with self._lock:
                 self._clients[client] = []

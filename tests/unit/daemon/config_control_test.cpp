@@ -76,6 +76,11 @@ TEST_F(ConfigControlTest, WhatIsRefusedChangesNothing) {
   EXPECT_EQ(send(control(control_t::UNDO)), "nothing to undo");
 }
 
+TEST_F(ConfigControlTest, AReasonIsNeverLongerThanAStatusHolds) {
+  EXPECT_GT(send(control(control_t::SET, "workers: " + std::string(10'000, 'x'))).size(), 4096u);
+  EXPECT_EQ(control_.error().size(), ConfigControl::kLongestError);
+}
+
 TEST_F(ConfigControlTest, KeepsABoundedNumberOfSteps) {
   const int steps = static_cast<int>(ConfigControl::kMostUndos) + 10;
   for (int i = 1; i <= steps; ++i) EXPECT_EQ(set(i), std::to_string(i));

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "graspd/sealed_t.hpp"
 #include "tests/unit/transport/message_samples.hpp"
 
 namespace graspd {
@@ -14,6 +15,7 @@ TEST(WireLayout, FingerprintsAreTheGeneratedTypes) {
   EXPECT_EQ(kDepthImageFingerprint, static_cast<std::uint64_t>(depth_image_t::getHash()));
   EXPECT_EQ(kHandleListFingerprint, static_cast<std::uint64_t>(handle_list_t::getHash()));
   EXPECT_EQ(kStatusFingerprint, static_cast<std::uint64_t>(status_t::getHash()));
+  EXPECT_EQ(kSealedFingerprint, static_cast<std::uint64_t>(sealed_t::getHash()));
   EXPECT_EQ(kControlFingerprint, static_cast<std::uint64_t>(control_t::getHash()));
 }
 
