@@ -69,10 +69,12 @@ std::vector<BenchCloud> stage_clouds(const BenchOptions& options) {
 BenchCloud scaled_cloud(const BenchOptions& options, std::size_t num_points) {
   const auto wanted = static_cast<double>(num_points);
   const int width = std::max(64, static_cast<int>(std::sqrt(kPixelsPerVoxel * wanted * 4 / 3)));
-  SimulationConfig config = simulation(options, width);
-  const PointCloud ideal = finite(to_cloud(Simulation(config).frame(0)).cloud);
-  config.sensor.noise_constant_m = kNoisePerLeaf * static_cast<double>(leaf_for(ideal, num_points));
-  const PointCloud noisy = finite(to_cloud(Simulation(config).frame(0)).cloud);
+  const SimulationConfig config = simulation(options, width);
+  const DepthFrame ideal = Simulation(config).frame(0);
+  SensorModel noise = config.sensor;
+  noise.noise_constant_m =
+      kNoisePerLeaf * static_cast<double>(leaf_for(finite(to_cloud(ideal).cloud), num_points));
+  const PointCloud noisy = finite(to_cloud(apply_sensor(ideal, noise, options.seed)).cloud);
   const float leaf_m = leaf_for(noisy, num_points);
   return as_voxels({printed("%zu points", num_points), noisy, leaf_m}, leaf_m);
 }

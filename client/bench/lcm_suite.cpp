@@ -26,7 +26,7 @@ using std::chrono::milliseconds;
 
 constexpr const char* kCloudChannel = "GRASPD_CLOUD";
 constexpr const char* kHandlesChannel = "GRASPD_HANDLES";
-constexpr std::chrono::seconds kPatience{20};  // an end to waiting, no measure of speed
+constexpr std::chrono::seconds kPatience{60};  // an end to waiting, no measure of speed
 constexpr int kWarmUpFrames = 20;
 
 /// A group and a port that no other program of the machine is likely to use.
@@ -76,7 +76,9 @@ class Answers {
   [[nodiscard]] std::int64_t count() const { return count_; }
   [[nodiscard]] std::int64_t dropped() const { return dropped_; }
   [[nodiscard]] const Samples& latency_ms() const { return latency_ms_; }
-  void forget() {
+  /// Counts answers to frames from this one on, and no others.
+  void count_from(std::int64_t seq) {
+    first_seq_ = seq;
     latency_ms_ = {};
     count_ = dropped_ = 0;
   }
@@ -85,7 +87,7 @@ class Answers {
   void take(const Packet& packet) {
     const auto now = Clock::now();
     const auto list = decode_handle_list(packet.bytes);
-    if (!list || list->seq < 0) return;
+    if (!list || list->seq < first_seq_) return;
     ++count_;
     if (list->status == handle_list_t::OVERLOADED) ++dropped_;
     if (!is_processed(*list)) return;
@@ -99,6 +101,7 @@ class Answers {
   std::mutex mutex_;
   std::vector<Clock::time_point> sent_;  // by seq
   std::atomic<std::int64_t> count_ = 0, dropped_ = 0;
+  std::int64_t first_seq_ = 0;
   Samples latency_ms_;  // of the listening thread
 };
 
@@ -170,10 +173,9 @@ class Session {
 };
 
 BenchResult Session::run(const BenchOptions& options, double rate_hz) {
-  await_answers(answers_.count() + 1);
-  answers_.forget();
+  answers_.count_from(next_seq_);
   (void)send(kWarmUpFrames, rate_hz);
-  answers_.forget();
+  answers_.count_from(next_seq_);
   const double cpu_before = daemon_.cpu_seconds();
   const auto start = Clock::now();
   const std::int64_t sent = send(std::max<std::int64_t>(1, std::llround(options.seconds * rate_hz)), rate_hz);

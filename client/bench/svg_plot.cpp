@@ -15,6 +15,7 @@ namespace {
 // Of the picture and of the plot's corners in it [pixels].
 constexpr double kWidth = 780, kHeight = 460, kLeft = 70, kRight = 560, kTop = 56, kBottom = 396;
 constexpr double kLabelGap = 19;
+constexpr double kSlack = 0.02;  // by which a value may lie beyond the axis' end, less than a marker
 
 constexpr const char* kStyle = R"(<style>
   text { font: 13px "Segoe UI", "Helvetica Neue", Arial, sans-serif; fill: #3d444d }
@@ -143,9 +144,9 @@ std::vector<double> log_ticks(double low, double high) {
   for (int power = static_cast<int>(std::floor(std::log10(low))) - 1;; ++power)
     for (const double digit : {1.0, 2.0, 5.0}) {
       const double tick = digit * std::pow(10.0, power);
-      if (tick <= low * (1 + 1e-9)) ticks.clear();  // a larger one begins the axis
+      if (tick <= low * (1 + kSlack)) ticks.clear();  // a larger one begins the axis
       ticks.push_back(tick);
-      if (tick >= high * (1 - 1e-9) && ticks.size() > 1) return ticks;
+      if (tick >= high * (1 - kSlack) && ticks.size() > 1) return ticks;
     }
 }
 

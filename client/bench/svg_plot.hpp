@@ -24,7 +24,7 @@ struct Plot {
 [[nodiscard]] std::string svg(const Plot& plot);
 
 /// Values 1, 2 and 5 times a power of ten from the largest that is not above low to the smallest that is not
-/// below high.
+/// below high, either by no more than 2 %.
 [[nodiscard]] std::vector<double> log_ticks(double low, double high);
 
 /// 20000 -> 20k.

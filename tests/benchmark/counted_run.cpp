@@ -14,22 +14,37 @@
 namespace graspd {
 namespace {
 
-/// As the suite stages has them.
-std::vector<BenchCloud> scenes() {
+/// One detection under a name.
+struct Work {
+  std::string name;
+  BenchCloud bench;
+  DetectConfig config;
+};
+
+/// Voxels as the suite stages has them, the same with the paper's own candidates, and an image as it comes
+/// from the camera with the default configuration.
+std::vector<Work> works() {
   BenchOptions options;
-  options.scenes = 2;
-  return stage_clouds(options);
+  std::vector<Work> list;
+  for (const BenchCloud& bench : stage_clouds(options))
+    list.push_back({"voxels", bench, config_at(bench.leaf_m)});
+  for (std::size_t i = list.size(); i-- > 0;)
+    list.push_back({"plain", list[i].bench, plain_config(list[i].config)});
+  const PointCloud image = simulated_image(options, 0, options.width).cloud;
+  list.push_back({"image", {"image", image, 0}, DetectConfig{}});
+  return list;
 }
 
-void run_counted(const PointCloud& cloud, const DetectConfig& config) {
+void run_counted(const Work& work) {
   CALLGRIND_START_INSTRUMENTATION;
   CALLGRIND_ZERO_STATS;
-  const Detection detection = detect_handles(cloud, Gripper{}, config, [](std::string_view stage) {
-    const std::string name(stage);
-    CALLGRIND_DUMP_STATS_AT(name.c_str());
-  });
+  const Detection detection =
+      detect_handles(work.bench.cloud, Gripper{}, work.config, [&](std::string_view stage) {
+        const std::string name = work.name + "/" + std::string(stage);
+        CALLGRIND_DUMP_STATS_AT(name.c_str());
+      });
   CALLGRIND_STOP_INSTRUMENTATION;
-  std::printf("points %zu\n", cloud.size());
+  std::printf("points %s %zu\n", work.name.c_str(), work.bench.cloud.size());
 }
 
 }  // namespace
@@ -40,11 +55,10 @@ int main() {
   ThreadLimit one_thread(1);
   std::printf("kernels %s\n", avx2_kernels() ? "avx2" : "portable");
   std::printf("compiler %s\n", __VERSION__);
-  for (const BenchCloud& bench : scenes()) {
-    const DetectConfig config = config_at(bench.leaf_m);
+  for (const Work& work : works()) {
     // Code and tables that are set up once do not count.
-    (void)timed_detection(bench.cloud, config, one_thread.arena());
-    one_thread.arena().execute([&] { run_counted(bench.cloud, config); });
+    (void)timed_detection(work.bench.cloud, work.config, one_thread.arena());
+    one_thread.arena().execute([&] { run_counted(work); });
   }
   return 0;
 }
