@@ -8,8 +8,8 @@ import re
 from harness import GraspdTest, run_tests
 
 PROGRAMS = ["graspd", "graspd-detect", "graspd-publish", "graspd-simulate", "graspd-listen", "graspd-log",
-            "graspd-status", "graspd-evaluate"]
-WITHOUT_LCM = ["graspd-detect", "graspd-evaluate"]
+            "graspd-status", "graspd-evaluate", "graspd-bench"]
+WITHOUT_LCM = ["graspd-detect", "graspd-evaluate", "graspd-bench"]
 
 
 # What comes before an option that is wrong, where something has to.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The graspd authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tests/benchmark/pcl_baseline.hpp"
+#include "client/bench/pcl_baseline.hpp"
 
 #include <pcl/features/normal_3d_omp.h>
 #include <pcl/search/kdtree.h>

@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+// How much memory something needs at its peak.
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+namespace graspd {
+
+/// By how much the resident memory of this process rises above where it was while the body runs [bytes], with
+/// free memory given back to the kernel before. Nothing where the kernel does not tell.
+[[nodiscard]] std::optional<std::int64_t> peak_growth_bytes(const std::function<void()>& body);
+
+}  // namespace graspd
