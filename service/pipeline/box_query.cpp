@@ -58,7 +58,8 @@ struct BoxQuery::Box {
         reach(rotation.cwiseAbs() * (0.5f * (max - min))),
         test(box_test(origin, rotation, min, max)) {
     for (int i = 0; i < 3; ++i) {
-      const float x = rotation(0, i), slack = r * (std::abs(rotation(1, i)) + std::abs(rotation(2, i))) + 1e-5f;
+      const float x = rotation(0, i),
+                  slack = r * (std::abs(rotation(1, i)) + std::abs(rotation(2, i))) + 1e-5f;
       slabs[i] = {std::abs(x) < 1e-4f ? 0 : 1 / x, min[i] - slack - test.shift[i],
                   max[i] + slack - test.shift[i]};
     }
@@ -88,7 +89,8 @@ BoxQuery::BoxQuery(const PointCloud& cloud, float cell_m)
     const std::int64_t key = order_.keys[c];
     if (key < end_of_row) continue;
     const std::int64_t z = key / order_.layer, y = key % order_.layer / order_.row;
-    rows_.push_back({static_cast<int>(z) + order_.min_cell.z(), static_cast<int>(y) + order_.min_cell.y(), c});
+    rows_.push_back(
+        {static_cast<int>(z) + order_.min_cell.z(), static_cast<int>(y) + order_.min_cell.y(), c});
     end_of_row = z * order_.layer + (y + 1) * order_.row;
   }
   rows_.push_back({kBeyond, 0, order_.num_cells()});
@@ -121,9 +123,8 @@ void BoxQuery::for_each_range(const Box& box, Visit visit) const {
   const Eigen::Vector3f from = (box.center - box.reach) / cell, to = (box.center + box.reach) / cell;
   const Eigen::Vector3i lo = from.array().floor().cast<int>(), hi = to.array().floor().cast<int>();
   const auto first_from = [this](auto row, int z, int y) {
-    return std::lower_bound(row, rows_.end(), Row{z, y, 0}, [](const Row& a, const Row& b) {
-      return a.z != b.z ? a.z < b.z : a.y < b.y;
-    });
+    return std::lower_bound(row, rows_.end(), Row{z, y, 0},
+                            [](const Row& a, const Row& b) { return a.z != b.z ? a.z < b.z : a.y < b.y; });
   };
   auto row = first_from(rows_.begin(), lo.z(), lo.y());
   while (row->z <= hi.z()) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The graspd authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What a promising candidate is worth beyond passing the checks: turned square to its object, and how steady it
-// is.
+// What a promising candidate is worth beyond passing the checks: turned square to its object, and how steady
+// it is.
 #pragma once
 #include "service/pipeline/handle_check.hpp"
 

@@ -90,9 +90,9 @@ std::vector<Key> number_cells(const PointCloud& cloud, float per_cell, const Cel
                                    cloud.z.data() + begin, end - begin, keys.data() + begin);
     else
       for (std::size_t i = begin; i < end; ++i)
-        keys[i] = static_cast<Key>(order.key({cell_index(cloud.x[i], per_cell),
-                                              cell_index(cloud.y[i], per_cell),
-                                              cell_index(cloud.z[i], per_cell)}));
+        keys[i] =
+            static_cast<Key>(order.key({cell_index(cloud.x[i], per_cell), cell_index(cloud.y[i], per_cell),
+                                        cell_index(cloud.z[i], per_cell)}));
   });
   return keys;
 }

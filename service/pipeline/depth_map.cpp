@@ -136,8 +136,9 @@ void DepthMap::splat(const PointCloud& cloud) {
     for (std::size_t k = 0; k < block.size; ++k) {
       const float depth = block.z[k];
       if (!(depth > 0 && fu[k] >= 0 && fv[k] >= 0 && fu[k] < width && fv[k] < height)) continue;
-      const std::size_t at = static_cast<std::size_t>(static_cast<int>(fv[k])) * static_cast<std::size_t>(width_) +
-                             static_cast<std::size_t>(static_cast<int>(fu[k]));
+      const std::size_t at =
+          static_cast<std::size_t>(static_cast<int>(fv[k])) * static_cast<std::size_t>(width_) +
+          static_cast<std::size_t>(static_cast<int>(fu[k]));
       if (depth_[at] != 0 && depth_[at] <= depth) continue;
       depth_[at] = depth;
       point_[at] = static_cast<std::int32_t>(from + k);
@@ -195,8 +196,9 @@ void DepthMap::find_hiders(const Probes& places, float margin_m, std::int32_t (&
   }
   for (std::size_t k = 0; k < kProbes; ++k) {
     if (!(depth[k] > 0 && fu[k] >= 0 && fv[k] >= 0 && fu[k] < width && fv[k] < height)) continue;
-    const std::size_t at = static_cast<std::size_t>(static_cast<int>(fv[k])) * static_cast<std::size_t>(width_) +
-                           static_cast<std::size_t>(static_cast<int>(fu[k]));
+    const std::size_t at =
+        static_cast<std::size_t>(static_cast<int>(fv[k])) * static_cast<std::size_t>(width_) +
+        static_cast<std::size_t>(static_cast<int>(fu[k]));
     if (depth_[at] > 0 && depth_[at] < depth[k] - margin_m) hiders[k] = point_[at];
   }
 }

@@ -70,8 +70,7 @@ void add_for_parts_without(const Surfaces& surfaces, std::vector<FoundHandle> of
   std::set<std::int32_t> served;
   for (const FoundHandle& found : handles) served.insert(found.ranked.object);
   for (FoundHandle& found : of_wholes)
-    found.ranked.object =
-        surfaces.objects.of_segment[static_cast<std::size_t>(found.ranked.handle.segment)];
+    found.ranked.object = surfaces.objects.of_segment[static_cast<std::size_t>(found.ranked.handle.segment)];
   std::erase_if(of_wholes, [&](const FoundHandle& found) { return served.contains(found.ranked.object); });
   std::vector<float> scores(of_wholes.size());
   tbb::parallel_for(std::size_t{0}, scores.size(),

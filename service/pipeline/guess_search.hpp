@@ -34,8 +34,8 @@ struct CheckedScene {
 /// A handle whose steadiness has not been looked at: its score is an upper bound.
 struct FoundHandle {
   RankedHandle ranked;
-  HandleMargins margins;   ///< that the score was made of
-  const SceneView* scene;  ///< that it was found in
+  HandleMargins margins;          ///< that the score was made of
+  const SceneView* scene;         ///< that it was found in
   std::int32_t candidate_object;  ///< its object there
 };
 

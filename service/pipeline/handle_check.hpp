@@ -96,7 +96,7 @@ struct CheckResult {
 
 /// Working memory of a check, kept from call to call.
 struct CheckBuffers {
-  LocalPoints local;              ///< around the candidate, relative to its fitted position
+  LocalPoints local;               ///< around the candidate, relative to its fitted position
   std::vector<std::int32_t> own;   ///< 1 for each of them that is the candidate's object's
   std::vector<std::int32_t> bins;  ///< and its bin of the profile; negative: none
   std::vector<std::uint32_t> between;

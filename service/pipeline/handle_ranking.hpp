@@ -46,8 +46,8 @@ using SettleScores =
 
 /// One for each distinct place, max_per_object for each object: its best, and then those that score best with
 /// regard to how far they are from the ones before. Best score first; ties keep the order of the input.
-/// settle: scores are upper bounds, and it is asked for the final ones of those handles that the result depends
-/// on; without, they are final.
+/// settle: scores are upper bounds, and it is asked for the final ones of those handles that the result
+/// depends on; without, they are final.
 [[nodiscard]] std::vector<Handle> rank_handles(std::vector<RankedHandle> handles,
                                                const HandleRankingConfig& config,
                                                const SettleScores& settle = {});

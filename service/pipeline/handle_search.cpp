@@ -75,8 +75,7 @@ Eigen::Vector3f face_normal(const SearchInput& in, const PaddedPoints& object, s
   constexpr float kRadius = 0.015f;
   const Eigen::Vector3f p = in.cloud.point(seed), n = in.normals.at(seed);
   near.resize(object.size() + kPointPadding);
-  near.resize(
-      point_kernels().keep_near({p.x(), p.y(), p.z()}, kRadius * kRadius, object.all(), near.data()));
+  near.resize(point_kernels().keep_near({p.x(), p.y(), p.z()}, kRadius * kRadius, object.all(), near.data()));
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
   for (const std::uint32_t i : near)
     if (in.normals.at(i).dot(n) > 0.8f) sum += in.normals.at(i);
@@ -127,7 +126,7 @@ std::vector<HandleSearch::Seed> HandleSearch::spread_seeds(const std::vector<std
       return (own.point(a) - mean).squaredNorm() < (own.point(b) - mean).squaredNorm();
     };
     const std::uint32_t seed = points[*std::min_element(order.cell(c).begin(), order.cell(c).end(), nearer)];
-    if (in_.segments.of_point[seed] >= 0) 
+    if (in_.segments.of_point[seed] >= 0)
       seeds.push_back({seed, outward_directions(seed, face_normal(in_, object, seed, near))});
   }
   return seeds;

@@ -23,8 +23,8 @@ class RowCursor {
       for (std::int64_t dy = -1; dy <= 1; ++dy) offsets_[i++] = dz * order.layer + dy * order.row;
     for (i = 0; i < offsets_.size(); ++i) {
       const std::int64_t key = order.keys[first_cell] + offsets_[i] - 1;
-      positions_[i] = static_cast<std::size_t>(
-          std::lower_bound(order.keys.begin(), order.keys.end(), key) - order.keys.begin());
+      positions_[i] = static_cast<std::size_t>(std::lower_bound(order.keys.begin(), order.keys.end(), key) -
+                                               order.keys.begin());
     }
   }
 

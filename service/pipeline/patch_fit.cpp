@@ -29,7 +29,9 @@ struct Profile {
     own.assign(bins, 0);
     all.assign(bins, 0);
   }
-  [[nodiscard]] static int num_bins(float half_length) { return static_cast<int>(2 * half_length / kBin) + 1; }
+  [[nodiscard]] static int num_bins(float half_length) {
+    return static_cast<int>(2 * half_length / kBin) + 1;
+  }
   [[nodiscard]] float at(int bin) const { return first_m + kBin * static_cast<float>(bin); }
   [[nodiscard]] int size() const { return static_cast<int>(all.size()); }
 };
@@ -189,7 +191,7 @@ void describe_points(const SceneView& scene, const Candidate& candidate, float r
     buffers.widths.resize(local.a.size());
   }
   // Where the support is in the way, the fingers go less deep: it does not widen the patch.
-  const BandTags tags{scene.object.data(), candidate.object, kSupportObject, -reach_m, kBin,
+  const BandTags tags{scene.object.data(),       candidate.object, kSupportObject, -reach_m, kBin,
                       Profile::num_bins(reach_m)};
   point_kernels().tag_band(tags, band(buffers), buffers.own.data(), buffers.bins.data());
 }

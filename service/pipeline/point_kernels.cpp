@@ -124,7 +124,8 @@ void number_cells(const CellGrid& grid, const float* x, const float* y, const fl
 }
 
 void tag_band(const BandTags& tags, const BandPoints& points, std::int32_t* own, std::int32_t* bins) {
-  for (std::size_t k = 0; k < points.size; ++k) bins[k] = cell_index((points.f[k] - tags.first) / tags.bin, 1);
+  for (std::size_t k = 0; k < points.size; ++k)
+    bins[k] = cell_index((points.f[k] - tags.first) / tags.bin, 1);
   for (std::size_t k = 0; k < points.size; ++k) {
     const std::int32_t object = tags.object_of_point[points.index[k]];
     own[k] = object == tags.object ? 1 : 0;
@@ -145,8 +146,8 @@ std::size_t keep_depths(const BandPoints& points, const std::int32_t* own, float
 }  // namespace
 
 const PointKernels& portable_kernels() {
-  static constexpr PointKernels kKernels{keep_inside,  count_inside, keep_near,    sum_moments, extend_bounds,
-                                         number_cells, tag_band,     keep_depths};
+  static constexpr PointKernels kKernels{keep_inside,   count_inside, keep_near, sum_moments,
+                                         extend_bounds, number_cells, tag_band,  keep_depths};
   return kKernels;
 }
 

@@ -76,8 +76,7 @@ GRASPD_AVX2 std::size_t keep_inside(const BoxTest& test, const PointRange& point
                  z = _mm256_loadu_ps(points.z + k);
     const __m256 a = box.local(0, x, y, z), f = box.local(1, x, y, z), d = box.local(2, x, y, z);
     const __m256 inside = _mm256_and_ps(_mm256_and_ps(box.within(0, a), box.within(1, f)), box.within(2, d));
-    const unsigned mask =
-        static_cast<unsigned>(_mm256_movemask_ps(inside)) & valid_lanes(points.size - k);
+    const unsigned mask = static_cast<unsigned>(_mm256_movemask_ps(inside)) & valid_lanes(points.size - k);
     if (mask == 0) continue;
     const __m256i lanes = lanes_of(mask);
     store(out.a + n, a, lanes);
@@ -95,11 +94,10 @@ GRASPD_AVX2 std::size_t count_inside(const BoxTest& test, const PointRange& poin
   for (std::size_t k = 0; k < points.size; k += 8) {
     const __m256 x = _mm256_loadu_ps(points.x + k), y = _mm256_loadu_ps(points.y + k),
                  z = _mm256_loadu_ps(points.z + k);
-    const __m256 inside =
-        _mm256_and_ps(_mm256_and_ps(box.within(0, box.local(0, x, y, z)), box.within(1, box.local(1, x, y, z))),
-                      box.within(2, box.local(2, x, y, z)));
-    const unsigned mask =
-        static_cast<unsigned>(_mm256_movemask_ps(inside)) & valid_lanes(points.size - k);
+    const __m256 inside = _mm256_and_ps(
+        _mm256_and_ps(box.within(0, box.local(0, x, y, z)), box.within(1, box.local(1, x, y, z))),
+        box.within(2, box.local(2, x, y, z)));
+    const unsigned mask = static_cast<unsigned>(_mm256_movemask_ps(inside)) & valid_lanes(points.size - k);
     n += static_cast<std::size_t>(std::popcount(mask));
   }
   return n;
@@ -149,8 +147,8 @@ GRASPD_AVX2 Moments sum_moments(const float (&p)[3], const float* x, const float
   for (__m256& s : sum) s = _mm256_setzero_ps();
   for (std::size_t from = 0; from < n; from += 8) {
     const __m256i i = load(indices + from);
-    const __m256 valid = _mm256_castsi256_ps(
-        _mm256_cmpgt_epi32(_mm256_set1_epi32(static_cast<int>(n - from)), lane));
+    const __m256 valid =
+        _mm256_castsi256_ps(_mm256_cmpgt_epi32(_mm256_set1_epi32(static_cast<int>(n - from)), lane));
     const auto offset = [&](const float* v, __m256 origin) GRASPD_AVX2 {
       return _mm256_and_ps(valid, _mm256_sub_ps(_mm256_i32gather_ps(v, i, sizeof(float)), origin));
     };
@@ -206,8 +204,8 @@ GRASPD_AVX2 void number_cells(const CellGrid& grid, const float* x, const float*
     const __m256i cx = cells_from_first(x + i, per_cell, grid.min_cell[0]),
                   cy = cells_from_first(y + i, per_cell, grid.min_cell[1]),
                   cz = cells_from_first(z + i, per_cell, grid.min_cell[2]);
-    const __m256i cell = _mm256_add_epi32(
-        _mm256_add_epi32(cx, _mm256_mullo_epi32(row, cy)), _mm256_mullo_epi32(layer, cz));
+    const __m256i cell =
+        _mm256_add_epi32(_mm256_add_epi32(cx, _mm256_mullo_epi32(row, cy)), _mm256_mullo_epi32(layer, cz));
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(out + i), cell);
   }
   portable_kernels().number_cells(grid, x + i, y + i, z + i, n - i, out + i);
@@ -238,8 +236,7 @@ GRASPD_AVX2 std::size_t keep_depths(const BandPoints& points, const std::int32_t
   std::size_t n = 0;
   for (std::size_t k = 0; k < points.size; k += 8) {
     const __m256 f = _mm256_loadu_ps(points.f + k);
-    const __m256 within =
-        _mm256_and_ps(_mm256_cmp_ps(f, min, _CMP_GE_OQ), _mm256_cmp_ps(f, max, _CMP_LE_OQ));
+    const __m256 within = _mm256_and_ps(_mm256_cmp_ps(f, min, _CMP_GE_OQ), _mm256_cmp_ps(f, max, _CMP_LE_OQ));
     const __m256 is_own = _mm256_castsi256_ps(_mm256_cmpgt_epi32(load(own + k), _mm256_setzero_si256()));
     const unsigned mask = static_cast<unsigned>(_mm256_movemask_ps(_mm256_and_ps(within, is_own))) &
                           valid_lanes(points.size - k);
@@ -252,8 +249,8 @@ GRASPD_AVX2 std::size_t keep_depths(const BandPoints& points, const std::int32_t
 }  // namespace
 
 const PointKernels* avx2_kernels() {
-  static constexpr PointKernels kKernels{keep_inside,  count_inside, keep_near,    sum_moments, extend_bounds,
-                                         number_cells, tag_band,     keep_depths};
+  static constexpr PointKernels kKernels{keep_inside,   count_inside, keep_near, sum_moments,
+                                         extend_bounds, number_cells, tag_band,  keep_depths};
   static const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("popcnt");
   return has_avx2 ? &kKernels : nullptr;
 }

@@ -69,8 +69,8 @@ Kept keep_inside(const PointKernels& kernels, const BoxTest& box, const Points& 
   const std::size_t room = points.size + kPointPadding;
   Kept kept{std::vector<float>(room), std::vector<float>(room), std::vector<float>(room),
             std::vector<std::uint32_t>(room + 1, kUntouched)};
-  const std::size_t n = kernels.keep_inside(
-      box, points.range(), {kept.a.data(), kept.f.data(), kept.z.data(), kept.index.data()});
+  const std::size_t n = kernels.keep_inside(box, points.range(),
+                                            {kept.a.data(), kept.f.data(), kept.z.data(), kept.index.data()});
   EXPECT_EQ(kept.index.back(), kUntouched) << "writes beyond the room that is asked for";
   for (std::vector<float>* v : {&kept.a, &kept.f, &kept.z}) v->resize(n);
   kept.index.resize(n);
@@ -110,7 +110,8 @@ TEST(PointKernels, KeepWhatIsNear) {
     const float p[3] = {0.1f, -0.2f, 0.3f};
     std::vector<std::uint32_t> expected;
     for (std::size_t i = 0; i < size; ++i) {
-      const double d = std::hypot(double{points.x[i]} - 0.1, double{points.y[i]} + 0.2, double{points.z[i]} - 0.3);
+      const double d =
+          std::hypot(double{points.x[i]} - 0.1, double{points.y[i]} + 0.2, double{points.z[i]} - 0.3);
       if (d * d <= 0.5) expected.push_back(points.index[i]);
     }
     for (const Form& form : forms()) {
@@ -158,8 +159,10 @@ TEST(PointKernels, BoundsPassOverNaN) {
       low = 5;
       high = -5;
       form.kernels->extend_bounds(points.y.data(), size, low, high);
-      EXPECT_EQ(low, *std::min_element(points.y.begin(), points.y.begin() + static_cast<std::ptrdiff_t>(size)));
-      EXPECT_EQ(high, *std::max_element(points.y.begin(), points.y.begin() + static_cast<std::ptrdiff_t>(size)));
+      EXPECT_EQ(low,
+                *std::min_element(points.y.begin(), points.y.begin() + static_cast<std::ptrdiff_t>(size)));
+      EXPECT_EQ(high,
+                *std::max_element(points.y.begin(), points.y.begin() + static_cast<std::ptrdiff_t>(size)));
     }
   }
 }
@@ -188,6 +191,43 @@ TEST(PointKernels, TagBandsAndKeepDepths) {
       std::vector<float> depths(size + kPointPadding);
       depths.resize(form.kernels->keep_depths(band, own.data(), -0.5f, 0.25f, depths.data()));
       EXPECT_EQ(depths, expected) << form.name << " " << size;
+    }
+  }
+}
+
+TEST(PointKernels, SumMoments) {
+  const Points points(50, 6);
+  const float p[3] = {0.5f, 0.25f, -0.125f};
+  for (const std::size_t num : {0, 1, 3, 8, 9, 27, 40}) {
+    std::vector<std::uint32_t> neighbors(num + kPointPadding);
+    for (std::size_t k = 0; k < neighbors.size(); ++k)
+      neighbors[k] = static_cast<std::uint32_t>((k * 7) % 50);
+    double xx = 0, yz = 0, z = 0;
+    for (std::size_t k = 0; k < num; ++k) {
+      const double dx = double{points.x[neighbors[k]]} - 0.5, dy = double{points.y[neighbors[k]]} - 0.25,
+                   dz = double{points.z[neighbors[k]]} + 0.125;
+      xx += dx * dx;
+      yz += dy * dz;
+      z += dz;
+    }
+    const auto sums = [&](const PointKernels& kernels) {
+      return kernels.sum_moments(p, points.x.data(), points.y.data(), points.z.data(), neighbors.data(), num);
+    };
+    const Moments expected = sums(portable_kernels());
+    EXPECT_NEAR(expected.xx, xx, 1e-4);
+    EXPECT_NEAR(expected.yz, yz, 1e-4);
+    EXPECT_NEAR(expected.z, z, 1e-4);
+    for (const Form& form : forms()) {
+      const Moments m = sums(*form.kernels);
+      EXPECT_EQ(m.x, expected.x) << form.name << " " << num;
+      EXPECT_EQ(m.y, expected.y);
+      EXPECT_EQ(m.z, expected.z);
+      EXPECT_EQ(m.xx, expected.xx);
+      EXPECT_EQ(m.xy, expected.xy);
+      EXPECT_EQ(m.xz, expected.xz);
+      EXPECT_EQ(m.yy, expected.yy);
+      EXPECT_EQ(m.yz, expected.yz);
+      EXPECT_EQ(m.zz, expected.zz);
     }
   }
 }
