@@ -11,8 +11,10 @@ using std::chrono::microseconds;
 
 std::optional<std::int64_t> ClockWatch::look(const Clock& clock) {
   const Clock::TimePoint now = clock.now();
-  const std::int64_t offset_us =
-      clock.wall_utime() - duration_cast<microseconds>(now.time_since_epoch()).count();
+  const std::int64_t wall_us = clock.wall_utime();
+  // A thread that had to wait between the two has seen no jump: the next look will do.
+  if (clock.now() - now > kTolerance / 4) return std::nullopt;
+  const std::int64_t offset_us = wall_us - duration_cast<microseconds>(now.time_since_epoch()).count();
   const std::int64_t moved_us = offset_us_ ? offset_us - *offset_us_ : 0;
   offset_us_ = offset_us;
   if (std::abs(moved_us) <= microseconds(kTolerance).count()) return std::nullopt;

@@ -56,5 +56,24 @@ TEST(ClockWatch, SlewingIsNoJump) {
   }
 }
 
+/// Time passes with every question, as for a thread that has to wait in between.
+class InterruptedClock final : public Clock {
+ public:
+  [[nodiscard]] TimePoint now() const override { return TimePoint(now_ += 30ms); }
+  [[nodiscard]] std::int64_t wall_utime() const override {
+    now_ += 1s;
+    return std::chrono::microseconds(now_).count();
+  }
+
+ private:
+  mutable std::chrono::microseconds now_{0};
+};
+
+TEST(ClockWatch, WaitingBetweenTheTwoClocksIsNoJump) {
+  const InterruptedClock clock;
+  ClockWatch watch;
+  for (int i = 0; i < 10; ++i) EXPECT_FALSE(watch.look(clock));
+}
+
 }  // namespace
 }  // namespace graspd

@@ -123,7 +123,7 @@ TEST(Log, NobodyWaitsForAReaderAndTheOldestLinesGo) {
   constexpr int kLines = 400;
   {
     Log log(clock, 16);
-    const std::string long_text(1000, 'x');  // a pipe holds 64 KiB
+    const std::string long_text(10'000, 'x');  // a pipe holds 64 KiB, less than 16 lines
     for (int i = 0; i < kLines; ++i) {
       log.info("tick", {{"i", i}, {"text", long_text}});
       clock.advance(Log::kPeriod);
