@@ -26,8 +26,7 @@ enum class RefusalReason : std::uint8_t {
   kReplayed,        ///< a sealed message that has come before
   kStale,           ///< a sealed message of another time
 };
-inline constexpr std::size_t kNumRefusalReasons =
-    static_cast<std::size_t>(RefusalReason::kStale) + 1;
+inline constexpr std::size_t kNumRefusalReasons = static_cast<std::size_t>(RefusalReason::kStale) + 1;
 
 /// lower_snake, as on the wire.
 [[nodiscard]] std::string_view name(RefusalReason reason);
