@@ -36,6 +36,7 @@ constexpr std::chrono::seconds kPatience{5};
 DaemonProcess::DaemonProcess(const std::vector<std::string>& arguments) {
   std::vector<std::string> copies = arguments;
   std::vector<char*> pointers;
+  pointers.reserve(copies.size() + 1);
   for (std::string& copy : copies) pointers.push_back(copy.data());
   pointers.push_back(nullptr);
   if (access(pointers[0], X_OK) != 0)
