@@ -29,15 +29,14 @@ File open(const std::filesystem::path& path, const char* mode) {
 }
 
 /// The whole file.
-std::string read_file(const std::filesystem::path& path) {
+std::string read_file(const std::filesystem::path& path, std::size_t max_bytes) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (status.type() == std::filesystem::file_type::not_found) fail(path, "no such file");
   if (error) fail(path, error.message());
   if (std::filesystem::is_directory(status)) fail(path, "is a folder, expected a PCD or PLY file");
-  constexpr std::uintmax_t kMaxBytes = std::uintmax_t{4} << 30;
   const auto size = std::filesystem::is_regular_file(status) ? std::filesystem::file_size(path, error) : 0;
-  if (size > kMaxBytes) fail(path, "is larger than 4 GiB");
+  if (size > max_bytes) fail(path, "is larger than " + std::to_string(max_bytes) + " bytes");
   errno = 0;
   const File file = open(path, "rb");
   if (!file) fail(path, std::string("cannot be opened: ") + std::strerror(errno));
@@ -47,14 +46,14 @@ std::string read_file(const std::filesystem::path& path) {
   return bytes;
 }
 
-LabelledCloud parse(std::string_view bytes) {
+LabelledCloud parse(std::string_view bytes, const CloudFileLimits& limits) {
   if (bytes.empty()) throw std::runtime_error("is empty");
-  if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r\n")) return parse_ply(bytes);
+  if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r\n")) return parse_ply(bytes, limits);
   // A PCD starts with comments, and its header with one of these.
   const std::string_view start = bytes.substr(0, 1024);
   for (const std::string_view key : {"VERSION ", "FIELDS "}) {
     const auto at = start.find(key);
-    if (at != start.npos && (at == 0 || start[at - 1] == '\n')) return parse_pcd(bytes);
+    if (at != start.npos && (at == 0 || start[at - 1] == '\n')) return parse_pcd(bytes, limits);
   }
   throw std::runtime_error("is neither a PCD nor a PLY file");
 }
@@ -68,10 +67,10 @@ bool is_cloud_file(const std::filesystem::path& path) {
   return ending == ".pcd" || ending == ".ply";
 }
 
-LabelledCloud load_cloud(const std::filesystem::path& path) {
-  const std::string bytes = read_file(path);
+LabelledCloud load_cloud(const std::filesystem::path& path, const CloudFileLimits& limits) {
+  const std::string bytes = read_file(path, limits.max_file_bytes);
   try {
-    return parse(bytes);
+    return parse(bytes, limits);
   } catch (const std::runtime_error& error) {
     fail(path, error.what());
   }

@@ -8,6 +8,7 @@
 #include "client/common/stop_flag.hpp"
 #include "client/common/text.hpp"
 #include "service/transport/cloud_encoder.hpp"
+#include "service/transport/seal_keys.hpp"
 
 namespace graspd {
 
@@ -33,6 +34,10 @@ bool Pacer::next() {
   return true;
 }
 
+void FramePublisher::sign_with(const std::filesystem::path& key_file) {
+  sealer_.emplace(load_seal_keys(key_file).front());
+}
+
 void FramePublisher::send_cloud(const FrameHeader& header, const LabelledCloud& cloud) {
   send(encode(make_point_cloud(header, cloud.cloud, cloud.rgb, cloud.label)));
 }
@@ -44,7 +49,8 @@ void FramePublisher::send_depth(const FrameHeader& header, const Pinhole& camera
   send(encode(make_depth_image(header, intrinsics, depth_units(z_m, depth_scale_m))));
 }
 
-void FramePublisher::send(const std::vector<std::byte>& bytes) {
+void FramePublisher::send(std::span<const std::byte> bytes) {
+  if (sealer_) bytes = sealer_->seal(channel_, bytes, wall_clock_us());
   if (!bus_.publish(channel_, bytes)) {
     throw std::runtime_error(
         printed("a message of %zu bytes on %s could not be sent", bytes.size(), channel_.c_str()));

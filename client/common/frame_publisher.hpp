@@ -4,13 +4,16 @@
 #pragma once
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "client/common/cloud_file.hpp"
 #include "client/common/pinhole.hpp"
 #include "service/transport/frame.hpp"
 #include "service/transport/lcm_bus.hpp"
+#include "service/transport/sealer.hpp"
 
 namespace graspd {
 
@@ -39,6 +42,9 @@ class FramePublisher {
  public:
   FramePublisher(LcmBus& bus, std::string channel) : bus_(bus), channel_(std::move(channel)) {}
 
+  /// Sealed with the first key of a file from now on. Throws std::runtime_error when there is none.
+  void sign_with(const std::filesystem::path& key_file);
+
   /// As point_cloud_t, with colours and labels when there are any.
   void send_cloud(const FrameHeader& header, const LabelledCloud& cloud);
 
@@ -52,10 +58,11 @@ class FramePublisher {
   [[nodiscard]] std::string summary() const;
 
  private:
-  void send(const std::vector<std::byte>& bytes);
+  void send(std::span<const std::byte> bytes);
 
   LcmBus& bus_;
   std::string channel_;
+  std::optional<Sealer> sealer_;
   std::int64_t frames_ = 0;
   std::int64_t bytes_ = 0;
   std::chrono::steady_clock::time_point first_;

@@ -77,6 +77,7 @@ std::string handle_list_line(const handle_list_t& list) {
                      std::string(status_name(list.status));
   if (list.status != handle_list_t::OK && !list.status_text.empty())
     line += " (" + plain_line(list.status_text) + ")";
+  if (list.degraded != 0) line += printed("  degraded to %.1f mm voxels", 1e3 * list.voxel_size);
   return line + printed("  %zu handles  %d of %d points  %d segments  %d candidates  %.1f ms",
                         list.handles.size(), list.points_used, list.points_in, list.num_segments,
                         list.num_candidates, 1e3 * list.latency);
@@ -106,6 +107,8 @@ void write_handle_list(JsonWriter& json, const handle_list_t& list) {
   json.member("source_channel", list.source_channel).member("frame_name", list.frame_name);
   write_gripper(json, list.gripper);
   json.member("status", status_name(list.status)).member("status_text", list.status_text);
+  json.member("config_revision", list.config_revision).key("voxel_size").value_float(list.voxel_size);
+  json.member("degraded", list.degraded);
   json.member("points_in", list.points_in).member("points_used", list.points_used);
   json.member("num_segments", list.num_segments).member("num_candidates", list.num_candidates);
   write_counts(json, "candidate_failures", list.candidate_failures);

@@ -146,6 +146,18 @@ Points from_compressed(const PcdHeader& header, std::string_view data) {
   return points;
 }
 
+void check_limits(const PcdHeader& header, const CloudFileLimits& limits) {
+  if (header.points() > limits.max_points) {
+    fail("has " + std::to_string(header.points()) + " points, expected at most " +
+         std::to_string(limits.max_points));
+  }
+  const std::size_t bytes = header.data == PcdData::kBinary ? 0 : header.points() * header.point_bytes;
+  if (bytes > limits.max_unpacked_bytes) {
+    fail("unpacks to " + std::to_string(bytes) + " bytes, expected at most " +
+         std::to_string(limits.max_unpacked_bytes));
+  }
+}
+
 Points read_points(const PcdHeader& header, std::string_view data) {
   if (header.data == PcdData::kAscii) return from_text(header, data);
   if (header.data == PcdData::kCompressed) return from_compressed(header, data);
@@ -204,8 +216,9 @@ bool lzf_unpack(std::string_view in, std::string& out) {
   return to == out.size();
 }
 
-LabelledCloud parse_pcd(std::string_view file) {
+LabelledCloud parse_pcd(std::string_view file, const CloudFileLimits& limits) {
   const PcdHeader header = parse_pcd_header(file);
+  check_limits(header, limits);
   const Points points = read_points(header, file.substr(header.data_start));
   LabelledCloud result;
   result.cloud.x = coordinates(header, points, "x");

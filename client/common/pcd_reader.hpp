@@ -10,7 +10,7 @@
 namespace graspd {
 
 /// The cloud in the bytes of a PCD file. Throws std::runtime_error that says what is wrong.
-[[nodiscard]] LabelledCloud parse_pcd(std::string_view file);
+[[nodiscard]] LabelledCloud parse_pcd(std::string_view file, const CloudFileLimits& limits = {});
 
 /// Unpacks LZF data; false unless it fills `out` exactly.
 [[nodiscard]] bool lzf_unpack(std::string_view in, std::string& out);

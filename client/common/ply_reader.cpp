@@ -183,7 +183,8 @@ void read_camera(ValueReader& values, const PlyElement& element, PointCloud& clo
   read_element(values, element,
                [&](std::size_t, std::size_t p, double value) { camera[element.properties[p].name] = value; });
   const Eigen::Vector3d viewpoint(camera["view_px"], camera["view_py"], camera["view_pz"]);
-  if (!(viewpoint.cwiseAbs().maxCoeff() < 1e6)) fail("its camera's position is no place");
+  if (!viewpoint.allFinite() || viewpoint.cwiseAbs().maxCoeff() >= 1e6)
+    fail("its camera's position is no place");
   cloud.viewpoint = viewpoint.cast<float>();
   const double width = camera["viewportx"], height = camera["viewporty"];
   if (height < 1 || width * height != static_cast<double>(cloud.size())) return;
@@ -194,13 +195,17 @@ void read_camera(ValueReader& values, const PlyElement& element, PointCloud& clo
 
 }  // namespace
 
-LabelledCloud parse_ply(std::string_view file) {
+LabelledCloud parse_ply(std::string_view file, const CloudFileLimits& limits) {
   const PlyHeader header = parse_ply_header(file);
   ValueReader values(file.substr(header.data_start), header.format);
   LabelledCloud result;
   bool has_vertices = false;
   for (const PlyElement& element : header.elements) {
     if (element.name == "vertex" && !has_vertices) {
+      if (element.count > limits.max_points) {
+        fail("has " + std::to_string(element.count) + " points, expected at most " +
+             std::to_string(limits.max_points));
+      }
       read_vertices(values, element, header.format, result);
       result.cloud.width = static_cast<int>(element.count);
       has_vertices = true;

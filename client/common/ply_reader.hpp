@@ -11,6 +11,6 @@ namespace graspd {
 
 /// The vertices in the bytes of a PLY file: x, y, z, red, green, blue, label where they are; viewpoint and
 /// organization from an element `camera` as PCL writes it. Throws std::runtime_error that says what is wrong.
-[[nodiscard]] LabelledCloud parse_ply(std::string_view file);
+[[nodiscard]] LabelledCloud parse_ply(std::string_view file, const CloudFileLimits& limits = {});
 
 }  // namespace graspd

@@ -26,7 +26,8 @@ void add_detect_options(CLI::App& app, DetectOptions& o) {
 
 SourceConfig source_config(const DetectOptions& o) {
   const std::filesystem::path file = o.config;
-  const ServiceConfig config = file.empty() ? ServiceConfig{} : load_service_config(file);
+  ServiceConfig config;
+  if (!file.empty()) config = load_service_config(file);
   SourceConfig source = config.sources.front();
   if (!o.source.empty()) {
     const auto named = std::find_if(config.sources.begin(), config.sources.end(),

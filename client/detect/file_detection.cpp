@@ -44,6 +44,7 @@ FileDetection detect_in_cloud(const PointCloud& cloud, const std::string& frame_
   };
   const Gripper& gripper = source.gripper.gripper;
   Detection detection = detect_handles(cloud, gripper, source.detect, on_stage);
+  header.voxel_m = double{source.detect.downsample.leaf_size_m};
   header.status = wire_status(detection.status);
   header.status_text = status_name(header.status);
   header.latency_s = 1e-3 * milliseconds(Clock::now() - start);

@@ -17,6 +17,7 @@ struct Options {
   std::vector<std::string> inputs;
   std::string channel = "GRASPD_CLOUD";
   std::string frame_name;
+  std::string key_file;
   std::string type = "cloud";
   double rate_hz = 10;
   double delay_s = 0;
@@ -49,6 +50,7 @@ void add_options(CLI::App& app, Options& o) {
   app.add_option("--depth-scale", o.depth_scale_m, "of one unit of depth [m]")
       ->check(CLI::Range(1e-5, 0.1))
       ->capture_default_str();
+  app.add_option("--key", o.key_file, "sign with the first key of this file (see graspd-keygen)");
   app.add_option("--delay", o.delay_s, "wait before the first frame, for listeners to start [s]")
       ->check(CLI::Range(0.0, 3600.0))
       ->capture_default_str();
@@ -103,6 +105,7 @@ int main(int argc, char** argv) {
     const auto files = list_cloud_files(options.inputs);
     LcmBus bus(resolve_lcm_url(options.lcm_url));
     FramePublisher publisher(bus, options.channel);
+    if (!options.key_file.empty()) publisher.sign_with(options.key_file);
     try {
       send_all(options, files, publisher);
     } catch (...) {

@@ -28,6 +28,7 @@ struct Options {
   std::string sensor = "kinect";
   std::string output;
   std::string truth;
+  std::string key_file;
   int width = 640;
   double rate_hz = 15;
   std::int64_t frames = 0;
@@ -79,6 +80,7 @@ void add_options(CLI::App& app, Options& o) {
                  "of the image [pixels]; its height is 3/4 of that, its field of view the same")
       ->check(CLI::Range(64, 1920))
       ->capture_default_str();
+  app.add_option("--key", o.key_file, "sign with the first key of this file (see graspd-keygen)");
   app.add_option("--truth", o.truth,
                  "write what is published into this file: the objects' points, as JSON lines");
   app.add_option("-o,--output", o.output, "write labelled PCD files into this folder instead of publishing");
@@ -117,6 +119,7 @@ int write_files(const CLI::App& app, const Options& o, Simulation& simulation) {
 int publish(const CLI::App& app, const Options& o, Simulation& simulation) {
   LcmBus bus(resolve_lcm_url(o.lcm_url));
   FramePublisher publisher(bus, o.channel);
+  if (!o.key_file.empty()) publisher.sign_with(o.key_file);
   const MessageType type = *message_type(o.type);
   constexpr double kDepthScale = 0.001;
   Pacer pacer(o.rate_hz);

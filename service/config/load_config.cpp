@@ -5,6 +5,7 @@
 
 #include "service/config/config_folders.hpp"
 #include "service/config/field_reader.hpp"
+#include "service/config/read_service_config.hpp"
 #include "service/config/service_config.hpp"
 #include "service/config/yaml_file.hpp"
 
@@ -64,8 +65,10 @@ void read_value(const YAML::Node& node, const ConfigPlace& place, const Range&, 
 }
 
 ServiceConfig load_service_config(const std::filesystem::path& file) {
-  const ConfigPlace place{file.string(), ""};
-  const YAML::Node root = load_yaml(file);
+  return read_service_config(load_yaml(file), ConfigPlace{file.string(), ""});
+}
+
+ServiceConfig read_service_config(const YAML::Node& root, const ConfigPlace& place) {
   ServiceConfig config;
   check_map(root, place, keys_of(config), {});
   FieldReader reader(root, place);

@@ -38,6 +38,12 @@ std::optional<std::string> regex_problem(const std::string& channel_regex) {
 std::optional<ConfigProblem> validate_channels(const ServiceConfig& config) {
   if (const auto problem = channel_problem(config.lcm.status_channel))
     return ConfigProblem{"lcm.status_channel", *problem};
+  const std::string& control = config.lcm.control_channel;
+  if (const auto problem = channel_problem(control); problem && !control.empty())
+    return ConfigProblem{"lcm.control_channel", *problem};
+  if (control == config.lcm.status_channel)
+    return ConfigProblem{"lcm.control_channel",
+                         "two types on one channel: expected another than lcm.status_channel"};
   for (std::size_t i = 0; i < config.sources.size(); ++i) {
     const SourceConfig& source = config.sources[i];
     if (const auto problem = regex_problem(source.channel))
@@ -48,6 +54,13 @@ std::optional<ConfigProblem> validate_channels(const ServiceConfig& config) {
       return ConfigProblem{source_key(i, "handles_channel"),
                            "two types on one channel: expected another than "
                            "lcm.status_channel"};
+    if (source.handles_channel == control)
+      return ConfigProblem{source_key(i, "handles_channel"),
+                           "two types on one channel: expected another than "
+                           "lcm.control_channel"};
+    if (!control.empty() && matches_channel(source.channel, control))
+      return ConfigProblem{source_key(i, "channel"),
+                           "matches lcm.control_channel " + control + ": expected clouds only"};
   }
   return std::nullopt;
 }

@@ -42,4 +42,24 @@ std::optional<ConfigProblem> SensorPose::validate() const {
   return std::nullopt;
 }
 
+std::optional<ConfigProblem> DegradeConfig::validate() const {
+  if (below_ms >= above_ms) return ConfigProblem{"below_ms", "too large: expected less than above_ms"};
+  return std::nullopt;
+}
+
+DetectConfig SourceConfig::degraded_detect() const {
+  DetectConfig coarse = detect;
+  const auto voxel_m = static_cast<float>(degrade.voxel_m);
+  coarse.neighborhoods.radius_m *= voxel_m / detect.downsample.leaf_size_m;
+  coarse.downsample.leaf_size_m = voxel_m;
+  return coarse;
+}
+
+std::optional<ConfigProblem> SourceConfig::validate() const {
+  const auto voxel_m = static_cast<float>(degrade.voxel_m);
+  if (degrade.voxel_m > 0 && voxel_m <= detect.downsample.leaf_size_m)
+    return ConfigProblem{"degrade.voxel_m", "not coarser: expected more than detect.downsample.leaf_size_m"};
+  return std::nullopt;
+}
+
 }  // namespace graspd

@@ -46,6 +46,31 @@ struct SensorPose {
   [[nodiscard]] std::optional<ConfigProblem> validate() const;
 };
 
+/// What is given up when frames cannot be worked on as fast as they come: smaller voxels.
+struct DegradeConfig {
+  double voxel_m = 0;
+  double above_ms = 100;
+  double above_drop_share = 0.5;
+  double below_ms = 50;
+  double hold_s = 10;
+
+  template <class Self, class Visitor>
+  static void visit(Self& self, Visitor&& v) {
+    v("voxel_m", self.voxel_m, Range{0, 0.1},
+      "edge of a voxel while degraded, more than leaf_size_m; neighbourhoods grow as much [m]; 0: never");
+    v("above_ms", self.above_ms, Range{1, 60000},
+      "when the mean latency, arrival to answer, of the last 8 frames is above this [ms]");
+    v("above_drop_share", self.above_drop_share, Range{0, 1},
+      "or more than this share of the last 16 frames was dropped for newer ones; 1: whatever is dropped");
+    v("below_ms", self.below_ms, Range{0, 60000},
+      "until the mean latency is below this again and half as many are dropped [ms]");
+    v("hold_s", self.hold_s, Range{0, 3600}, "and for so long at least; longer where that was too early [s]");
+  }
+
+  /// below_ms is less than above_ms.
+  [[nodiscard]] std::optional<ConfigProblem> validate() const;
+};
+
 /// A gripper by the name of an installed file, or in full. In YAML: a name, a path, or a map of a gripper
 /// file's keys.
 struct GripperSetting {
@@ -59,6 +84,8 @@ struct SourceConfig {
   std::string handles_channel = "GRASPD_HANDLES";
   FramePolicy policy = FramePolicy::kLatest;
   int queue_length = 30;
+  int deadline_ms = 0;
+  DegradeConfig degrade;
   GripperSetting gripper{"paper_80mm", Gripper{}};
   std::string sensor;
   SensorPose sensor_pose;
@@ -74,12 +101,20 @@ struct SourceConfig {
     v("policy", self.policy, Range{},
       "latest: a newer frame replaces one that waits; all: frames wait in turn");
     v("queue_length", self.queue_length, Range{1, 1000}, "frames that wait at most, with policy all");
+    v("deadline_ms", self.deadline_ms, Range{0, 600000},
+      "a frame not answered so long after its arrival is given up and answered OVERLOADED [ms]; 0: none");
+    v("degrade", self.degrade, "coarser voxels while frames cannot keep up");
     v("gripper", self.gripper, Range{}, "name of a file in grippers/, or its path, or its keys");
     v("sensor", self.sensor, Range{},
       "name of a file in sensors/, or its path, with settings of the method for that sensor; empty: none");
     v("sensor_pose", self.sensor_pose, "where the sensor is (extrinsics)");
     v("detect", self.detect, "what differs from detect: above, for this source");
   }
+
+  /// What holds while degraded: coarser voxels, and neighbourhoods of as many of them.
+  [[nodiscard]] DetectConfig degraded_detect() const;
+  /// Degraded voxels are coarser ones.
+  [[nodiscard]] std::optional<ConfigProblem> validate() const;
 };
 
 }  // namespace graspd

@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/config/yaml_file.hpp"
 
+#include <yaml-cpp/eventhandler.h>
+
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
+#include <sstream>
 #include <system_error>
 
 #include "service/config/config_error.hpp"
@@ -49,6 +52,56 @@ Utf8Lead utf8_lead(unsigned char c) {
   return {0, 0, 0};
 }
 
+/// What a document is made of, before there is memory for it: yaml-cpp's own tree has no limits, and its
+/// LoadAll never ends on some texts that are no YAML (a comma at the start).
+class DocumentLimits : public YAML::EventHandler {
+ public:
+  explicit DocumentLimits(const ConfigPlace& place) : place_(place) {}
+
+  void OnDocumentStart(const YAML::Mark&) override {
+    if (++documents_ > 1) place_.fail("more than one document", "", "1");
+  }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override { count(); }
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override { count(); }
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t, const std::string&) override {
+    count();
+  }
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {
+    enter();
+  }
+  void OnSequenceEnd() override { --depth_; }
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
+    enter();
+  }
+  void OnMapEnd() override { --depth_; }
+
+ private:
+  void count() {
+    if (++nodes_ > kMaxConfigNodes)
+      place_.fail("too many values", "", "at most " + std::to_string(kMaxConfigNodes));
+  }
+  void enter() {
+    count();
+    if (++depth_ > kMaxConfigDepth)
+      place_.fail("too many levels", "", "at most " + std::to_string(kMaxConfigDepth));
+  }
+
+  const ConfigPlace& place_;
+  std::size_t documents_ = 0;
+  std::size_t nodes_ = 0;
+  std::size_t depth_ = 0;
+};
+
+void check_limits(const std::string& text, const ConfigPlace& place) {
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  DocumentLimits limits(place);
+  while (parser.HandleNextDocument(limits)) {
+  }
+}
+
 }  // namespace
 
 bool is_utf8_text(std::string_view text) {
@@ -69,13 +122,14 @@ bool is_utf8_text(std::string_view text) {
 }
 
 YAML::Node load_yaml(const std::filesystem::path& file) {
-  const ConfigPlace place{file.string(), ""};
-  const std::string text = read_text(file);
+  return parse_yaml(read_text(file), ConfigPlace{file.string(), ""});
+}
+
+YAML::Node parse_yaml(const std::string& text, const ConfigPlace& place) {
   if (!is_utf8_text(text)) place.fail("not a text file", "bytes that are not UTF-8", "YAML in UTF-8");
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    if (documents.size() > 1) place.fail("more than one document", std::to_string(documents.size()), "1");
-    return documents.empty() ? YAML::Node() : documents.front();
+    check_limits(text, place);
+    return YAML::Load(text);
   } catch (const YAML::Exception& e) {
     place.fail("line " + std::to_string(e.mark.line + 1) + ", column " + std::to_string(e.mark.column + 1) +
                    ": not YAML: " + e.msg,

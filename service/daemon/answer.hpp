@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What one message led to: the list to publish, and how it is counted.
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <string_view>
 
 #include "graspd/handle_list_t.hpp"
 #include "service/runtime/clock.hpp"
@@ -13,15 +16,30 @@ namespace graspd {
 
 enum class Outcome : std::uint8_t {
   kProcessed,  ///< went through the pipeline, with or without handles
-  kFailed,     ///< the pipeline threw; counted as processed
+  kFailed,     ///< the pipeline threw or got stuck; counted as processed
   kRefused,    ///< not a usable message
-  kDropped,    ///< not looked at: overload, or the daemon stops
+  kDropped,    ///< not worked on, or not to the end
 };
+
+enum class DropReason : std::uint8_t {
+  kNewerFrame,    ///< its place in the mailbox was needed
+  kDeadline,      ///< older than the source allows
+  kMemory,        ///< too many bytes wait
+  kHeldUp,        ///< too many later answers wait for it
+  kReconfigured,  ///< a new configuration has no place for it
+  kStopping,      ///< the daemon stops
+};
+inline constexpr std::size_t kNumDropReasons = static_cast<std::size_t>(DropReason::kStopping) + 1;
+
+/// lower_snake, as on the wire.
+[[nodiscard]] std::string_view name(DropReason reason);
 
 struct Answer {
   Outcome outcome = Outcome::kProcessed;
   std::optional<RefusalReason> refusal;  ///< with kRefused
+  std::optional<DropReason> drop;        ///< with kDropped
   Clock::TimePoint arrival{};            ///< of the message
+  std::string handles_channel;           ///< to publish it on
   handle_list_t list;                    ///< complete but for the latency
 };
 

@@ -3,12 +3,12 @@
 #include "service/daemon/daemon.hpp"
 
 #include <algorithm>
+#include <exception>
 #include <new>
 #include <thread>
 #include <utility>
 
 #include "service/transport/cloud_decoder.hpp"
-#include "service/transport/status_codec.hpp"
 
 namespace graspd {
 namespace {
@@ -21,6 +21,16 @@ constexpr auto kFinishLimit =
 constexpr auto kCancelLimit = 400ms;
 constexpr auto kPublishLimit = 100ms;
 
+std::string whole_ms(Clock::TimePoint::duration time) {
+  return std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(time).count()) + " ms";
+}
+
+/// What the daemon is given, for want of anything to read.
+ConfigControl::Load or_unchanged(ConfigControl::Load load, const ServiceConfig& config) {
+  if (load) return load;
+  return [config](const std::string&) { return config; };
+}
+
 }  // namespace
 
 int threads_a_frame(const ServiceConfig& config) {
@@ -28,35 +38,33 @@ int threads_a_frame(const ServiceConfig& config) {
                             : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
-Daemon::Daemon(ServiceConfig config, LcmBus& bus, const Clock& clock, Log& log)
-    : config_(std::move(config)),
-      bus_(bus),
+Daemon::Daemon(ServiceConfig config, Bus& bus, const Clock& clock, Log& log, ConfigControl::Load load)
+    : bus_(bus),
       clock_(clock),
       log_(log),
+      config_(std::make_shared<const ServiceConfig>(std::move(config))),
+      control_(or_unchanged(std::move(load), *config_)),
       helpers_(tbb::global_control::max_allowed_parallelism,
-               static_cast<std::size_t>(threads_a_frame(config_))),
-      arena_(threads_a_frame(config_) - 1 + config_.workers, static_cast<unsigned>(config_.workers)),
+               static_cast<std::size_t>(threads_a_frame(*config_))),
+      arena_(threads_a_frame(*config_) - 1 + config_->workers, static_cast<unsigned>(config_->workers)),
       health_(clock),
       next_status_(clock.now()),
-      workers_(queue_, static_cast<std::size_t>(config_.workers), [this](Job job) { work(std::move(job)); }) {
-  subscribe();
+      table_(queue_, clock, log,
+             [this](Stream& stream, Answer answer) { publish(stream, std::move(answer)); }),
+      workers_(queue_, static_cast<std::size_t>(config_->workers),
+               [this](Job job) { work(std::move(job)); }) {
+  adopt(config_, control_.revision());
 }
 
-void Daemon::subscribe() {
-  for (std::size_t i = 0; i < config_.sources.size(); ++i) {
-    const std::string& channel = config_.sources[i].channel;
-    // Seen in the status from the start, message or none.
-    if (is_plain_channel(channel) && !stream_of_channel_.contains(channel)) add_stream(i, channel);
-    bus_.subscribe(channel, [this, i](const Packet& packet) { on_packet(i, packet); });
-  }
-}
-
-LcmBus::Wait Daemon::step() {
+Bus::Wait Daemon::step() {
   const auto until_status = std::chrono::ceil<std::chrono::milliseconds>(next_status_ - clock_.now());
   const auto result = bus_.wait(std::clamp<std::chrono::milliseconds>(until_status, 0ms, kLongestWait));
+  look_at_clock();
+  obey_controls();
+  watch_work();
   const Clock::TimePoint now = clock_.now();
   if (now >= next_status_) {
-    publish_status(status_t::RUNNING);
+    publish_status(num_stuck_ > 0 ? status_t::STUCK : status_t::RUNNING);
     // After a pause (a suspended machine) one status, not one for each second of it.
     next_status_ = std::max(next_status_ + kStatusPeriod, now);
   }
@@ -66,154 +74,149 @@ LcmBus::Wait Daemon::step() {
 bool Daemon::stop() {
   stopped_ = true;
   queue_.close();
-  const auto drop_all = [this] {
-    cancelled_ = true;
-    for (const auto& waiting : queue_.drop_waiting()) drop(waiting.item, "graspd stops");
+  const auto drop_one = [](const Job& job) { drop(job, DropReason::kStopping, "graspd stops"); };
+  const auto drop_all = [&] {
+    work_watch_.cancel_all();
+    for (const auto& waiting : queue_.drop_waiting()) drop_one(waiting.item);
   };
-  if (config_.on_stop == StopPolicy::kDrop) drop_all();
+  if (config_->on_stop == StopPolicy::kDrop) drop_all();
   bool finished = queue_.wait_idle(kFinishLimit);
   if (!finished) {
     drop_all();
     finished = queue_.wait_idle(kCancelLimit);
   }
   if (!finished) {
-    answer_for_workers();
+    work_watch_.give_up_all(drop_one);
     finished = queue_.wait_idle(kPublishLimit);  // one may be publishing what was just released
   }
   publish_status(status_t::STOPPING);
   return finished;
 }
 
-void Daemon::on_packet(std::size_t source, const Packet& packet) {
-  if (stopped_) return;
-  if (Stream* stream = stream_for(source, packet.channel)) take(*stream, packet);
-}
-
-Stream* Daemon::stream_for(std::size_t source, std::string_view channel) {
-  if (const auto found = stream_of_channel_.find(channel); found != stream_of_channel_.end())
-    return found->second->source == source ? found->second : nullptr;
-  const std::string name(channel);
-  if (is_own_channel(name)) return nullptr;
-  for (std::size_t i = 0; i < source; ++i) {
-    if (matches_channel(config_.sources[i].channel, name)) return nullptr;  // that source's handler takes it
+void Daemon::on_packet(const std::string& subscription, const Packet& packet) {
+  if (stopped_ || subscription == config_->lcm.status_channel) return;
+  if (subscription == config_->lcm.control_channel) {
+    on_control(packet);
+  } else if (!table_.knows(packet.channel) && !authentication_.admits(packet)) {
+    table_.ignore(packet.channel, "not signed with a key of ours");
+  } else if (const auto stream = table_.find(subscription, packet.channel)) {
+    take(stream, packet);
   }
-  if (streams_.size() >= static_cast<std::size_t>(config_.limits.max_sources)) {
-    ++ignored_;
-    log_.warning("channel_ignored", {{"channel", name}, {"max_sources", config_.limits.max_sources}});
-    return nullptr;
-  }
-  log_.info("channel_found", {{"source", config_.sources[source].name}, {"channel", name}});
-  return &add_stream(source, name);
 }
 
-Stream& Daemon::add_stream(std::size_t source, const std::string& channel) {
-  const SourceConfig& settings = config_.sources[source];
-  const bool all = settings.policy == FramePolicy::kAll;
-  const std::size_t queue = queue_.add_source(all ? static_cast<std::size_t>(settings.queue_length) : 1,
-                                              all ? static_cast<std::size_t>(config_.workers) : 1);
-  streams_.push_back(std::make_unique<Stream>(
-      source, channel, queue, FrameProcessor(settings, channel, config_.limits.decode, clock_),
-      [this](Stream& stream, Answer answer) { publish(stream, std::move(answer)); }));
-  stream_of_channel_.emplace(channel, streams_.back().get());
-  return *streams_.back();
-}
-
-void Daemon::take(Stream& stream, const Packet& packet) {
-  const DecodeLimits& limits = config_.limits.decode;
-  Job job{&stream, stream.gate.take_ticket(), {peek_header(packet.bytes, limits), {}, arrival_of(packet)}};
-  stream.health.received(job.message.header.seq);
+void Daemon::take(const std::shared_ptr<Stream>& stream, const Packet& packet) {
+  hold_answers_within_limit(*stream);
+  const DecodeLimits& limits = config_->limits.decode;
+  const auto opened = authentication_.open(packet, clock_.wall_utime());
+  const auto* bytes = std::get_if<std::span<const std::byte>>(&opened);
+  const FrameHeader header = bytes != nullptr ? peek_header(*bytes, limits) : FrameHeader{};
+  Job job{stream, stream->processor, stream->gate.take_ticket(), {header, {}, arrival_of(packet)}};
+  stream->health.received(job.message.header.seq, clock_.now());
   // Here already, so that what cannot be used never takes the place of a frame that can.
-  if (const std::optional<Refusal> refusal = check_cloud(packet.bytes, limits)) {
-    stream.gate.release(job.ticket, stream.processor.refuse(*refusal, job.message.arrival));
+  const auto refusal = bytes != nullptr ? check_cloud(*bytes, limits) : std::get<Refusal>(opened);
+  if (refusal) {
+    stream->gate.release(job.ticket, job.processor->refuse(*refusal, job.message.arrival));
     return;
   }
+  auto lease = take_memory(*stream, bytes->size());
+  if (!lease) {
+    drop(job, DropReason::kMemory, "too many bytes wait");
+    return;
+  }
+  job.lease = std::move(*lease);
   try {
-    job.message.bytes.assign(packet.bytes.begin(), packet.bytes.end());
+    job.message.bytes.assign(bytes->begin(), bytes->end());
   } catch (const std::bad_alloc&) {
-    stream.gate.release(job.ticket, stream.processor.fail(job.message, "out of memory"));
+    stream->gate.release(job.ticket, job.processor->fail(job.message, "out of memory"));
     return;
   }
-  if (const auto dropped = queue_.push(stream.queue, std::move(job)))
-    drop(*dropped, "a newer frame came first");
+  if (const auto dropped = queue_.push(stream->queue, std::move(job)))
+    drop(*dropped, DropReason::kNewerFrame, "a newer frame came first");
+}
+
+void Daemon::hold_answers_within_limit(Stream& stream) {
+  const auto limit = static_cast<std::size_t>(config_->limits.max_waiting_answers);
+  if (stream.gate.waiting() < limit) return;
+  const auto give_up = [](const Job& job) {
+    drop(job, DropReason::kHeldUp, "too many later answers wait for this frame's");
+  };
+  log_.warning("answers_held_up", {{"channel", stream.channel}, {"waiting", stream.gate.waiting()}});
+  work_watch_.give_up(stream, give_up);
+  while (stream.gate.waiting() >= limit) {
+    const auto oldest = queue_.drop_oldest(stream.queue);
+    if (!oldest) return;  // a worker has just begun with it: it is given up with the next message
+    give_up(*oldest);
+  }
+}
+
+std::optional<ByteBudget::Lease> Daemon::take_memory(const Stream& stream, std::size_t bytes) {
+  while (true) {
+    if (auto lease = budget_.take(static_cast<std::int64_t>(bytes), config_->limits.max_waiting_bytes))
+      return lease;
+    const auto oldest = queue_.drop_oldest(stream.queue);
+    if (!oldest) return std::nullopt;
+    drop(*oldest, DropReason::kMemory, "too many bytes wait");
+  }
 }
 
 void Daemon::work(Job job) {
-  {
-    const std::lock_guard lock(in_work_mutex_);
-    in_work_.insert(&job);
-  }
   Answer answer;
-  // Isolated: while this frame waits for its helpers its worker must not begin another one.
-  arena_.execute([&] {
-    tbb::this_task_arena::isolate([&] { answer = job.stream->processor.process(job.message, cancelled_); });
-  });
   {
-    const std::lock_guard lock(in_work_mutex_);
-    in_work_.erase(&job);
+    const WorkWatch::Entry entry(work_watch_, job, clock_.now());
+    answer = work_on(job, entry.cancelled());
   }
   job.stream->gate.release(job.ticket, std::move(answer));
 }
 
-void Daemon::answer_for_workers() {
-  const std::lock_guard lock(in_work_mutex_);
-  for (const Job* job : in_work_) drop(*job, "graspd stops");
-}
-
-void Daemon::drop(const Job& job, const std::string& why) {
-  job.stream->gate.release(job.ticket, job.stream->processor.drop(job.message, why));
-}
-
-void Daemon::publish(Stream& stream, Answer answer) {
-  const double latency_s = seconds(clock_.now() - answer.arrival);
-  answer.list.latency = latency_s;
-  const SourceConfig& source = config_.sources[stream.source];
-  if (answer.outcome == Outcome::kRefused)
-    log_.warning("frame_refused", {{"channel", stream.channel}, {"reason", answer.list.status_text}});
-  if (answer.outcome == Outcome::kFailed)
-    log_.error("frame_failed", {{"channel", stream.channel}, {"reason", answer.list.status_text}});
-  // Counted first: whoever has the answer finds it in the next status.
-  stream.health.answered(answer, latency_s);
-  if (!bus_.publish(source.handles_channel, encode(answer.list)))
-    log_.error("publish_failed", {{"channel", source.handles_channel}, {"handles", answer.list.num_handles}});
-}
-
-void Daemon::publish_status(std::int8_t state) {
-  std::vector<source_status_t> sources;
-  for (std::size_t i = 0; i < config_.sources.size(); ++i) {
-    bool found = false;
-    for (const auto& stream : streams_) {
-      if (stream->source != i) continue;
-      sources.push_back(stream->health.snapshot(clock_.now()));
-      sources.back().name = config_.sources[i].name;
-      sources.back().channel = stream->channel;
-      found = true;
-    }
-    if (found) continue;
-    // A regular expression that nothing has matched yet.
-    sources.push_back(ChannelHealth().snapshot(clock_.now()));
-    sources.back().name = config_.sources[i].name;
-    sources.back().channel = config_.sources[i].channel;
+Answer Daemon::work_on(const Job& job, const std::atomic<bool>& cancelled) {
+  const FrameProcessor& processor = *job.processor;
+  const auto age = clock_.now() - job.message.arrival;
+  if (const auto deadline = processor.deadline(job.message);
+      deadline && job.message.arrival + age > *deadline)
+    return processor.drop(job.message, DropReason::kDeadline,
+                          "waited " + whole_ms(age) + ", longer than deadline_ms");
+  const Effort effort = job.stream->load.degraded() ? Effort::kDegraded : Effort::kFull;
+  try {
+    Answer answer;
+    // Isolated: while this frame waits for its helpers its worker must not begin another one.
+    arena_.execute([&] {
+      tbb::this_task_arena::isolate([&] { answer = processor.process(job.message, effort, cancelled); });
+    });
+    return answer;
+  } catch (const std::exception& e) {
+    return processor.fail(job.message, e.what());
   }
-  status_t status = health_.snapshot(state, std::move(sources));
-  status.num_workers = config_.workers;
-  status.ignored = ignored_;
-  if (!bus_.publish(config_.lcm.status_channel, encode(status)))
-    log_.error("publish_failed", {{"channel", config_.lcm.status_channel}});
 }
 
-bool Daemon::is_own_channel(const std::string& channel) const {
-  return channel == config_.lcm.status_channel ||
-         std::any_of(config_.sources.begin(), config_.sources.end(),
-                     [&](const SourceConfig& source) { return source.handles_channel == channel; });
+void Daemon::watch_work() {
+  const Clock::TimePoint now = clock_.now();
+  const auto longest = std::chrono::duration_cast<Clock::TimePoint::duration>(
+      std::chrono::duration<double>(config_->watchdog_s));
+  const auto late = [&](const Job& job) {
+    drop(job, DropReason::kDeadline,
+         "not done " + whole_ms(now - job.message.arrival) + " after its arrival, longer than deadline_ms");
+  };
+  const auto stuck = [&](const Job& job) {
+    log_.error("frame_stuck", {{"channel", job.stream->channel}, {"seq", job.message.header.seq}});
+    job.stream->gate.release(job.ticket,
+                             job.processor->fail(job.message, "in work for longer than watchdog_s"));
+  };
+  num_stuck_ = work_watch_.look(now, longest, late, stuck);
 }
 
-Clock::TimePoint Daemon::arrival_of(const Packet& packet) const {
-  // LCM stamps messages by the wall clock before they wait in its queue. A wait that long is a log's time or
-  // a jump.
-  constexpr std::int64_t kLongestQueue_us = 10'000'000;
-  const std::int64_t waited_us = clock_.wall_utime() - packet.recv_utime;
-  const bool plausible = waited_us >= 0 && waited_us <= kLongestQueue_us;
-  return clock_.now() - std::chrono::microseconds(plausible ? waited_us : 0);
+void Daemon::drop(const Job& job, DropReason reason, const std::string& why) {
+  job.stream->gate.release(job.ticket, job.processor->drop(job.message, reason, why));
+}
+
+void Daemon::look_at_clock() {
+  if (const auto jump_us = clock_watch_.look(clock_)) log_.warning("clock_set", {{"by_us", *jump_us}});
+}
+
+Clock::TimePoint Daemon::arrival_of(const Packet& packet) {
+  // LCM stamps messages by the wall clock before they wait in its queue. A wait that long is a log's time.
+  constexpr std::chrono::seconds kLongestQueue{10};
+  look_at_clock();
+  return clock_.now() - clock_watch_.since(packet.recv_utime, clock_, kLongestQueue);
 }
 
 }  // namespace graspd

@@ -7,74 +7,103 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <functional>
-#include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
-#include <string_view>
-#include <vector>
 
 #include "service/config/service_config.hpp"
+#include "service/daemon/authentication.hpp"
+#include "service/daemon/config_control.hpp"
 #include "service/daemon/health.hpp"
 #include "service/daemon/stream.hpp"
+#include "service/daemon/stream_table.hpp"
+#include "service/daemon/work_watch.hpp"
+#include "service/runtime/byte_budget.hpp"
 #include "service/runtime/clock.hpp"
+#include "service/runtime/clock_watch.hpp"
 #include "service/runtime/frame_queue.hpp"
 #include "service/runtime/log.hpp"
 #include "service/runtime/worker_pool.hpp"
-#include "service/transport/lcm_bus.hpp"
+#include "service/transport/bus.hpp"
 
 namespace graspd {
 
 /// Subscribes when made. Belongs to one thread, the LCM thread; bus, clock and log must outlive it.
 class Daemon {
  public:
-  Daemon(ServiceConfig config, LcmBus& bus, const Clock& clock, Log& log);
+  /// `load` reads the configuration anew; without it there is only the one that is given.
+  Daemon(ServiceConfig config, Bus& bus, const Clock& clock, Log& log, ConfigControl::Load load = {});
   Daemon(const Daemon&) = delete;
   Daemon& operator=(const Daemon&) = delete;
 
-  /// Waits for one message, at most a twentieth of a second, and publishes the status when a second is over.
-  LcmBus::Wait step();
+  /// Waits for one message, at most a twentieth of a second; does what control messages ask for, answers for
+  /// frames that take too long, publishes the status when a second is over.
+  Bus::Wait step();
+
+  /// Reads the configuration again and takes it, or keeps the old one; log and status say which.
+  void reload();
 
   /// Takes no more messages, finishes or drops those that have been taken, publishes the last status. Each
   /// has its answer then. False when a worker is still at a frame after 1.4 s: the destructor would wait for
   /// it.
   [[nodiscard]] bool stop();
 
- private:
-  void subscribe();
-  void on_packet(std::size_t source, const Packet& packet);
-  Stream* stream_for(std::size_t source, std::string_view channel);
-  Stream& add_stream(std::size_t source, const std::string& channel);
-  void take(Stream& stream, const Packet& packet);
-  void work(Job job);
-  void publish(Stream& stream, Answer answer);
-  void drop(const Job& job, const std::string& why);
-  void answer_for_workers();
-  void publish_status(std::int8_t state);
-  [[nodiscard]] bool is_own_channel(const std::string& channel) const;
-  [[nodiscard]] Clock::TimePoint arrival_of(const Packet& packet) const;
+  /// Frames in work for longer than watchdog_s.
+  [[nodiscard]] int num_stuck() const { return num_stuck_; }
+  /// One line for people about the newest status.
+  [[nodiscard]] const std::string& summary() const { return summary_; }
+  /// How many statuses there were.
+  [[nodiscard]] std::int64_t num_statuses() const { return num_statuses_; }
 
-  const ServiceConfig config_;
-  LcmBus& bus_;
+ private:
+  void adopt(std::shared_ptr<const ServiceConfig> config, std::int64_t revision);
+  void change_config(const std::string& cause, const std::function<ConfigControl::Proposal()>& propose);
+  void keep_fixed_settings(ServiceConfig& config);
+  void on_packet(const std::string& subscription, const Packet& packet);
+  void on_control(const Packet& packet);
+  void obey_controls();
+  void take(const std::shared_ptr<Stream>& stream, const Packet& packet);
+  void hold_answers_within_limit(Stream& stream);
+  std::optional<ByteBudget::Lease> take_memory(const Stream& stream, std::size_t bytes);
+  void work(Job job);
+  Answer work_on(const Job& job, const std::atomic<bool>& cancelled);
+  void watch_work();
+  void look_at_clock();
+  void publish(Stream& stream, Answer answer);
+  void send(const std::string& channel, std::span<const std::byte> bytes);
+  void follow_load(Stream& stream, const Answer& answer, double latency_s);
+  static void drop(const Job& job, DropReason reason, const std::string& why);
+  [[nodiscard]] std::vector<source_status_t> source_statuses();
+  void publish_status(std::int8_t state);
+  [[nodiscard]] Clock::TimePoint arrival_of(const Packet& packet);
+
+  Bus& bus_;
   const Clock& clock_;
   Log& log_;
-  tbb::global_control helpers_;  // one thread less than a frame may have; all workers share them
-  tbb::task_arena arena_;        // with a place for each worker, so that none waits for another's frame
+  std::shared_ptr<const ServiceConfig> config_;
+  ConfigControl control_;
+  Authentication authentication_;
+  std::set<std::string> subscriptions_;
+  std::deque<control_t> controls_;  // that have arrived and are not obeyed yet
+  tbb::global_control helpers_;     // one thread less than a frame may have; all workers share them
+  tbb::task_arena arena_;           // with a place for each worker, so that none waits for another's frame
   ProcessHealth health_;
-  std::vector<std::unique_ptr<Stream>>
-      streams_;  // in order of their first message; read and written by the LCM thread
-  std::map<std::string, Stream*, std::less<>> stream_of_channel_;
-  std::int64_t ignored_ = 0;
+  ClockWatch clock_watch_;
+  ByteBudget budget_;
   Clock::TimePoint next_status_;
+  std::string summary_;
+  std::int64_t num_statuses_ = 0;
+  int num_stuck_ = 0;
   bool stopped_ = false;
-  std::atomic<bool> cancelled_ = false;
-  std::mutex in_work_mutex_;
-  std::set<const Job*> in_work_;
+  WorkWatch work_watch_;
   FrameQueue<Job> queue_;
+  StreamTable table_;
   WorkerPool<Job> workers_;  // last: its threads use all of the above
 };
 

@@ -49,14 +49,20 @@ class StageTimer {
 }  // namespace
 
 FrameProcessor::FrameProcessor(const SourceConfig& source, std::string channel, const DecodeLimits& limits,
-                               const Clock& clock)
-    : source_(source), channel_(std::move(channel)), limits_(limits), clock_(clock) {}
+                               const Clock& clock, std::int64_t revision)
+    : source_(source),
+      degraded_detect_(source.degrade.voxel_m > 0 ? source.degraded_detect() : source.detect),
+      channel_(std::move(channel)),
+      limits_(limits),
+      clock_(clock),
+      revision_(revision) {}
 
-Answer FrameProcessor::process(const FrameMessage& message, const std::atomic<bool>& cancelled) const {
+Answer FrameProcessor::process(const FrameMessage& message, Effort effort,
+                               const std::atomic<bool>& cancelled) const {
   try {
-    return detect(message, cancelled);
+    return detect(message, effort, cancelled);
   } catch (const Cancelled&) {
-    return drop(message, "graspd stops");
+    return drop(message, DropReason::kStopping, "graspd stops");
   } catch (const std::exception& e) {
     return fail(message, e.what());
   } catch (...) {
@@ -64,7 +70,13 @@ Answer FrameProcessor::process(const FrameMessage& message, const std::atomic<bo
   }
 }
 
-Answer FrameProcessor::detect(const FrameMessage& message, const std::atomic<bool>& cancelled) const {
+std::optional<Clock::TimePoint> FrameProcessor::deadline(const FrameMessage& message) const {
+  if (source_.deadline_ms <= 0) return std::nullopt;
+  return message.arrival + std::chrono::milliseconds(source_.deadline_ms);
+}
+
+Answer FrameProcessor::detect(const FrameMessage& message, Effort effort,
+                              const std::atomic<bool>& cancelled) const {
   StageTimer timer(clock_);
   const auto on_stage = [&](std::string_view stage) {
     timer.stage_done(stage);
@@ -75,20 +87,29 @@ Answer FrameProcessor::detect(const FrameMessage& message, const std::atomic<boo
   on_stage("decode");
   const Frame& frame = std::get<Frame>(decoded);
   const Gripper& gripper = source_.gripper.gripper;
-  const Detection detection = detect_handles(frame.cloud, gripper, source_.detect, on_stage);
+  const DetectConfig& settings = effort == Effort::kDegraded ? degraded_detect_ : source_.detect;
+  const Detection detection = detect_handles(frame.cloud, gripper, settings, on_stage);
   HandleListHeader header = list_header({frame.utime, frame.seq, frame.frame_name});
+  header.voxel_m = double{settings.downsample.leaf_size_m};
+  header.degraded = effort == Effort::kDegraded && source_.degrade.voxel_m > 0;
   header.status = wire_status(detection.status);
   header.status_text = status_text(detection);
   header.stages_ms = std::move(timer.stages_ms);
-  return {Outcome::kProcessed, std::nullopt, message.arrival,
+  return {Outcome::kProcessed,
+          std::nullopt,
+          std::nullopt,
+          message.arrival,
+          source_.handles_channel,
           make_handle_list(header, gripper, detection, source_.sensor_pose.T_target_cloud())};
 }
 
-Answer FrameProcessor::drop(const FrameMessage& message, const std::string& why) const {
+Answer FrameProcessor::drop(const FrameMessage& message, DropReason reason, const std::string& why) const {
   HandleListHeader header = list_header(message.header);
   header.status = handle_list_t::OVERLOADED;
   header.status_text = why;
-  return without_detection(Outcome::kDropped, header, message.arrival);
+  Answer answer = without_detection(Outcome::kDropped, header, message.arrival);
+  answer.drop = reason;
+  return answer;
 }
 
 Answer FrameProcessor::fail(const FrameMessage& message, const std::string& why) const {
@@ -112,13 +133,19 @@ HandleListHeader FrameProcessor::list_header(const FrameHeader& header) const {
   list.utime = header.utime;
   list.seq = header.seq;
   list.source_channel = channel_;
+  list.config_revision = revision_;
+  list.voxel_m = double{source_.detect.downsample.leaf_size_m};
   list.frame_name = source_.sensor_pose.given() ? source_.sensor_pose.frame_name : header.frame_name;
   return list;
 }
 
 Answer FrameProcessor::without_detection(Outcome outcome, const HandleListHeader& header,
                                          Clock::TimePoint arrival) const {
-  return {outcome, std::nullopt, arrival,
+  return {outcome,
+          std::nullopt,
+          std::nullopt,
+          arrival,
+          source_.handles_channel,
           make_handle_list(header, source_.gripper.gripper, Detection{}, Eigen::Isometry3f::Identity())};
 }
 

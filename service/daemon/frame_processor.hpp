@@ -4,6 +4,8 @@
 #pragma once
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,32 +25,46 @@ struct FrameMessage {
   Clock::TimePoint arrival{};
 };
 
-/// For one channel of one source. Its functions may be called from several threads at once.
+/// How much work a frame is worth now.
+enum class Effort : std::uint8_t {
+  kFull,      ///< as configured
+  kDegraded,  ///< with the source's degraded voxels
+};
+
+/// For one channel of one source, with one configuration. Its functions may be called from several threads at
+/// once.
 class FrameProcessor {
  public:
+  /// `revision` of the configuration.
   FrameProcessor(const SourceConfig& source, std::string channel, const DecodeLimits& limits,
-                 const Clock& clock);
+                 const Clock& clock, std::int64_t revision);
 
   /// Exceptions from the frame become an answer FAILED. When `cancelled` becomes true the frame ends after
   /// the stage it is in, as dropped.
-  [[nodiscard]] Answer process(const FrameMessage& message, const std::atomic<bool>& cancelled) const;
+  [[nodiscard]] Answer process(const FrameMessage& message, Effort effort,
+                               const std::atomic<bool>& cancelled) const;
 
   /// For messages that are not processed.
   [[nodiscard]] Answer refuse(const Refusal& refusal, Clock::TimePoint arrival) const;
-  [[nodiscard]] Answer drop(const FrameMessage& message, const std::string& why) const;
+  [[nodiscard]] Answer drop(const FrameMessage& message, DropReason reason, const std::string& why) const;
   [[nodiscard]] Answer fail(const FrameMessage& message, const std::string& why) const;
+
+  /// When the frame is too late; nothing: never.
+  [[nodiscard]] std::optional<Clock::TimePoint> deadline(const FrameMessage& message) const;
 
  private:
   struct Cancelled {};
 
-  Answer detect(const FrameMessage& message, const std::atomic<bool>& cancelled) const;
+  Answer detect(const FrameMessage& message, Effort effort, const std::atomic<bool>& cancelled) const;
   HandleListHeader list_header(const FrameHeader& header) const;
   Answer without_detection(Outcome outcome, const HandleListHeader& header, Clock::TimePoint arrival) const;
 
   const SourceConfig source_;
+  const DetectConfig degraded_detect_;
   const std::string channel_;
   const DecodeLimits limits_;
   const Clock& clock_;
+  const std::int64_t revision_;
 };
 
 }  // namespace graspd

@@ -3,22 +3,15 @@
 // graspd: clouds in over LCM, handle lists out.
 #include <CLI/CLI.hpp>
 
-#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <iostream>
 #include <optional>
 #include <string>
 
-#include "service/config/config_folders.hpp"
 #include "service/config/service_config.hpp"
-#include "service/daemon/daemon.hpp"
-#include "service/daemon/stop_signals.hpp"
+#include "service/daemon/service_loop.hpp"
 #include "service/daemon/version.hpp"
-#include "service/runtime/clock.hpp"
-#include "service/runtime/log.hpp"
-#include "service/transport/lcm_bus.hpp"
-#include "service/transport/lcm_url.hpp"
 
 namespace {
 
@@ -74,61 +67,8 @@ std::filesystem::path config_file(const Options& options) {
   return std::filesystem::exists(kSystemConfig, error) ? kSystemConfig : "";
 }
 
-ServiceConfig load(const Options& options, const std::filesystem::path& file) {
-  ServiceConfig config;
-  if (!file.empty()) config = load_service_config(file);
-  if (options.workers) config.workers = *options.workers;
-  if (options.threads) config.threads = *options.threads;
-  if (!options.lcm_url.empty()) config.lcm.url = options.lcm_url;
-  if (!options.gripper.empty()) {
-    // A path on the command line is relative to where the command is given.
-    const auto folder = is_path(options.gripper) ? std::filesystem::path() : file.parent_path();
-    const GripperSetting gripper = find_gripper(options.gripper, folder);
-    for (SourceConfig& source : config.sources) source.gripper = gripper;
-  }
-  return config;
-}
-
-void log_start(Log& log, const ServiceConfig& config, const std::filesystem::path& file,
-               const std::string& url) {
-  std::string sources;
-  for (const SourceConfig& source : config.sources)
-    sources += (sources.empty() ? "" : ",") + source.name + ":" + source.channel;
-  const std::string from = file.empty() ? "built-in" : file.string();
-  log.info("started", {{"version", kVersion},
-                       {"config", from},
-                       {"url", url},
-                       {"sources", sources},
-                       {"workers", config.workers},
-                       {"threads", threads_a_frame(config)}});
-  for (const std::string& warning : receive_buffer_warnings(url))
-    log.warning("receive_buffer", {{"text", warning}});
-}
-
-int serve(const ServiceConfig& config, const std::filesystem::path& file) {
-  const StopSignals signals;
-  const SystemClock clock;
-  Log log(clock);
-  const std::string url = resolve_lcm_url(config.lcm.url);
-  LcmBus bus(url);
-  Daemon daemon(config, bus, clock, log);
-  log_start(log, config, file, url);
-  int exit_code = 0;
-  std::string_view reason;
-  while (reason.empty()) {
-    if (daemon.step() == LcmBus::Wait::kClosed) {
-      log.error("lcm_closed", {{"url", url}});
-      reason = "lcm_closed";
-      exit_code = kFailed;
-    } else {
-      reason = signals.received();
-    }
-  }
-  const bool finished = daemon.stop();
-  log.info("stopped", {{"reason", reason}, {"finished", finished ? "true" : "false"}});
-  // The destructors would wait for the frame that is still in work, longer than a supervisor does.
-  if (!finished) std::_Exit(exit_code);
-  return exit_code;
+ConfigLayers layers_of(const Options& options) {
+  return {config_file(options), options.workers, options.threads, options.lcm_url, options.gripper, {}};
 }
 
 }  // namespace
@@ -137,9 +77,9 @@ int main(int argc, char** argv) {
   Options options;
   if (const auto exit_code = parse(argc, argv, options)) return *exit_code;
   try {
-    const std::filesystem::path file = config_file(options);
-    const ServiceConfig config = load(options, file);
-    const std::string name = file.empty() ? "built-in configuration" : file.string();
+    const ConfigLayers layers = layers_of(options);
+    const ServiceConfig config = load_layers(layers);
+    const std::string name = layers.file.empty() ? "built-in configuration" : layers.file.string();
     if (options.print_config) {
       std::cout << print(config) << std::flush;
       return std::cout ? 0 : kFailed;
@@ -148,7 +88,7 @@ int main(int argc, char** argv) {
       std::cerr << name << ": ok, " << config.sources.size() << " source(s)\n";
       return 0;
     }
-    return serve(config, file);
+    return serve(layers, config);
   } catch (const ConfigError& e) {
     std::cerr << e.what() << '\n';
     return kBadUsage;

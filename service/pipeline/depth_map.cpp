@@ -95,9 +95,12 @@ DepthMap::DepthMap(const PointCloud& cloud)
   bottom = std::min(bottom, kMaxSlope);
   if (right <= left || bottom <= top) return;
   // About one pixel a point, so that a closed surface leaves few gaps and an edge stays where it is.
-  const float area = (right - left) * (bottom - top);
+  // Points on nearly one ray would have pixels beyond all numbers.
+  constexpr float kMinSide = 1e-6f;
+  const float area = std::max((right - left) * (bottom - top), kMinSide * kMinSide);
   focal_ = std::sqrt(static_cast<float>(cloud.size()) / area);
-  focal_ = std::min(focal_, static_cast<float>(kMaxSide - 4) / std::max(right - left, bottom - top));
+  focal_ =
+      std::min(focal_, static_cast<float>(kMaxSide - 4) / std::max({right - left, bottom - top, kMinSide}));
   width_ = static_cast<int>(focal_ * (right - left)) + 3;
   height_ = static_cast<int>(focal_ * (bottom - top)) + 3;
   center_u_ = 1 - focal_ * left;

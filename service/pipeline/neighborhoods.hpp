@@ -21,7 +21,8 @@ struct NeighborhoodsConfig {
   }
 };
 
-/// For each point the indices of all points within the radius, itself included; for skipped points none.
+/// For each point the indices of all points within the radius, itself included; for skipped points none. The
+/// kernels may read kPointPadding indices beyond the end of each list.
 class Neighborhoods {
  public:
   [[nodiscard]] std::size_t size() const { return lists_.size(); }

@@ -8,6 +8,8 @@
 #include <array>
 #include <cmath>
 
+#include "service/pipeline/point_kernels.hpp"
+
 namespace graspd {
 namespace {
 
@@ -24,19 +26,9 @@ struct Covariances {
 /// Covariance of N(s), divided by its trace; all zero when there is no extent.
 void add_covariance(const PointCloud& cloud, std::span<const std::uint32_t> neighborhood,
                     const Eigen::Vector3f& s, Covariances& c, std::size_t lane) {
-  float x = 0, y = 0, z = 0, xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
-  for (const std::uint32_t i : neighborhood) {
-    const float dx = cloud.x[i] - s.x(), dy = cloud.y[i] - s.y(), dz = cloud.z[i] - s.z();
-    x += dx;
-    y += dy;
-    z += dz;
-    xx += dx * dx;
-    xy += dx * dy;
-    xz += dx * dz;
-    yy += dy * dy;
-    yz += dy * dz;
-    zz += dz * dz;
-  }
+  auto [x, y, z, xx, xy, xz, yy, yz, zz] =
+      point_kernels().sum_moments({s.x(), s.y(), s.z()}, cloud.x.data(), cloud.y.data(), cloud.z.data(),
+                                  neighborhood.data(), neighborhood.size());
   if (neighborhood.empty()) return;
   const float per = 1.0f / static_cast<float>(neighborhood.size());
   xx -= x * x * per;

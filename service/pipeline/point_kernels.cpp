@@ -3,6 +3,7 @@
 #include "service/pipeline/point_kernels.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace graspd {
 namespace {
@@ -82,6 +83,30 @@ std::size_t keep_near(const float (&p)[3], float distance_squared, const PointRa
   return static_cast<std::size_t>(end - out);
 }
 
+Moments sum_moments(const float (&p)[3], const float* x, const float* y, const float* z,
+                    const std::uint32_t* indices, std::size_t n) {
+  constexpr std::size_t kParts = 8;
+  float part[9][kParts] = {};
+  for (std::size_t from = 0; from < n; from += kParts) {
+    const std::size_t size = std::min(kParts, n - from);
+    for (std::size_t k = 0; k < size; ++k) {
+      const std::uint32_t i = indices[from + k];
+      const float dx = x[i] - p[0], dy = y[i] - p[1], dz = z[i] - p[2];
+      part[0][k] += dx;
+      part[1][k] += dy;
+      part[2][k] += dz;
+      part[3][k] += dx * dx;
+      part[4][k] += dx * dy;
+      part[5][k] += dx * dz;
+      part[6][k] += dy * dy;
+      part[7][k] += dy * dz;
+      part[8][k] += dz * dz;
+    }
+  }
+  const auto sum = [&part](int m) { return std::accumulate(part[m], part[m] + kParts, 0.0f); };
+  return {sum(0), sum(1), sum(2), sum(3), sum(4), sum(5), sum(6), sum(7), sum(8)};
+}
+
 void extend_bounds(const float* v, std::size_t n, float& low, float& high) {
   for (std::size_t i = 0; i < n; ++i) {
     if (v[i] < low) low = v[i];
@@ -120,7 +145,7 @@ std::size_t keep_depths(const BandPoints& points, const std::int32_t* own, float
 }  // namespace
 
 const PointKernels& portable_kernels() {
-  static constexpr PointKernels kKernels{keep_inside,  count_inside, keep_near,  extend_bounds,
+  static constexpr PointKernels kKernels{keep_inside,  count_inside, keep_near,    sum_moments, extend_bounds,
                                          number_cells, tag_band,     keep_depths};
   return kKernels;
 }

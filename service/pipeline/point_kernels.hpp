@@ -52,6 +52,11 @@ struct BandTags {
   std::int32_t num_bins;
 };
 
+/// Sums over neighbours of their offsets from a point, and of the products of the offsets.
+struct Moments {
+  float x, y, z, xx, xy, xz, yy, yz, zz;
+};
+
 struct PointKernels {
   /// Writes the points inside, in their order; returns their number.
   std::size_t (*keep_inside)(const BoxTest& box, const PointRange& points, const LocalOutput& out);
@@ -61,6 +66,10 @@ struct PointKernels {
   /// must be room for size + kPointPadding.
   std::size_t (*keep_near)(const float (&p)[3], float distance_squared, const PointRange& points,
                            std::uint32_t* out);
+  /// Offsets of the points with n indices from p. As many as kPointPadding more indices must be readable and
+  /// be those of points. Summed in eight parts, every eighth neighbour in one, which are added in order.
+  Moments (*sum_moments)(const float (&p)[3], const float* x, const float* y, const float* z,
+                         const std::uint32_t* indices, std::size_t n);
   /// Widens [low, high] to hold n values; passes over NaN.
   void (*extend_bounds)(const float* v, std::size_t n, float& low, float& high);
   /// Writes the number of the cell of each of n points.

@@ -125,6 +125,49 @@ GRASPD_AVX2 std::size_t keep_near(const float (&p)[3], float distance_squared, c
   return n;
 }
 
+GRASPD_AVX2 inline __m256i load(const void* from) {
+  return _mm256_loadu_si256(static_cast<const __m256i*>(from));
+}
+
+/// Sums of the eight lanes of nine vectors, each in the order of its lanes.
+GRASPD_AVX2 Moments sums_of_lanes(const __m256 (&v)[9]) {
+  alignas(32) float part[9][8];
+  for (int m = 0; m < 9; ++m) _mm256_store_ps(part[m], v[m]);
+  float sum[9];
+  for (int m = 0; m < 9; ++m) {
+    sum[m] = 0;
+    for (const float p : part[m]) sum[m] += p;
+  }
+  return {sum[0], sum[1], sum[2], sum[3], sum[4], sum[5], sum[6], sum[7], sum[8]};
+}
+
+GRASPD_AVX2 Moments sum_moments(const float (&p)[3], const float* x, const float* y, const float* z,
+                                const std::uint32_t* indices, std::size_t n) {
+  const __m256 px = _mm256_set1_ps(p[0]), py = _mm256_set1_ps(p[1]), pz = _mm256_set1_ps(p[2]);
+  const __m256i lane = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+  __m256 sum[9];
+  for (__m256& s : sum) s = _mm256_setzero_ps();
+  for (std::size_t from = 0; from < n; from += 8) {
+    const __m256i i = load(indices + from);
+    const __m256 valid = _mm256_castsi256_ps(
+        _mm256_cmpgt_epi32(_mm256_set1_epi32(static_cast<int>(n - from)), lane));
+    const auto offset = [&](const float* v, __m256 origin) GRASPD_AVX2 {
+      return _mm256_and_ps(valid, _mm256_sub_ps(_mm256_i32gather_ps(v, i, sizeof(float)), origin));
+    };
+    const __m256 dx = offset(x, px), dy = offset(y, py), dz = offset(z, pz);
+    sum[0] = _mm256_add_ps(sum[0], dx);
+    sum[1] = _mm256_add_ps(sum[1], dy);
+    sum[2] = _mm256_add_ps(sum[2], dz);
+    sum[3] = _mm256_add_ps(sum[3], _mm256_mul_ps(dx, dx));
+    sum[4] = _mm256_add_ps(sum[4], _mm256_mul_ps(dx, dy));
+    sum[5] = _mm256_add_ps(sum[5], _mm256_mul_ps(dx, dz));
+    sum[6] = _mm256_add_ps(sum[6], _mm256_mul_ps(dy, dy));
+    sum[7] = _mm256_add_ps(sum[7], _mm256_mul_ps(dy, dz));
+    sum[8] = _mm256_add_ps(sum[8], _mm256_mul_ps(dz, dz));
+  }
+  return sums_of_lanes(sum);
+}
+
 GRASPD_AVX2 void extend_bounds(const float* v, std::size_t n, float& low, float& high) {
   __m256 lows = _mm256_set1_ps(low), highs = _mm256_set1_ps(high);
   std::size_t i = 0;
@@ -138,10 +181,6 @@ GRASPD_AVX2 void extend_bounds(const float* v, std::size_t n, float& low, float&
   _mm256_store_ps(lanes + 8, highs);
   portable_kernels().extend_bounds(lanes, 16, low, high);
   portable_kernels().extend_bounds(v + i, n - i, low, high);
-}
-
-GRASPD_AVX2 inline __m256i load(const void* from) {
-  return _mm256_loadu_si256(static_cast<const __m256i*>(from));
 }
 
 GRASPD_AVX2 inline __m256i floor_to_int(__m256 v) {
@@ -211,7 +250,7 @@ GRASPD_AVX2 std::size_t keep_depths(const BandPoints& points, const std::int32_t
 }  // namespace
 
 const PointKernels* avx2_kernels() {
-  static constexpr PointKernels kKernels{keep_inside,  count_inside, keep_near,  extend_bounds,
+  static constexpr PointKernels kKernels{keep_inside,  count_inside, keep_near,    sum_moments, extend_bounds,
                                          number_cells, tag_band,     keep_depths};
   static const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("popcnt");
   return has_avx2 ? &kKernels : nullptr;

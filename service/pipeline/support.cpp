@@ -184,7 +184,7 @@ float support_thickness(const Eigen::Vector3f& p, const Eigen::Vector3f& viewpoi
 std::optional<Support> find_support(const PointCloud& cloud, const SupportConfig& config) {
   if (!config.enabled || cloud.empty()) return std::nullopt;
   const PointCloud coarse = downsample(cloud, {config.leaf_size_m}).cloud;
-  const Neighborhoods neighborhoods = find_neighborhoods(coarse, {3 * config.leaf_size_m});
+  const Neighborhoods neighborhoods = find_neighborhoods(coarse, {2 * config.leaf_size_m});
   const Normals normals = estimate_normals(coarse, neighborhoods);
   const float min_cosine = std::cos(config.max_normal_angle_deg * std::numbers::pi_v<float> / 180);
   const auto hypothesis = best_hypothesis(thin_out(coarse, normals), config, min_cosine, cloud.viewpoint);

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstddef>
+#include <deque>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -29,6 +30,19 @@ class FrameQueue {
     const std::lock_guard lock(mutex_);
     sources_.push_back({Mailbox<Item>(capacity), max_in_flight, 0});
     return sources_.size() - 1;
+  }
+
+  /// Changes what add_source() set; the items that had to go, oldest first.
+  [[nodiscard]] std::vector<Item> configure(std::size_t source, std::size_t capacity,
+                                            std::size_t max_in_flight) {
+    std::vector<Item> dropped;
+    {
+      const std::lock_guard lock(mutex_);
+      sources_[source].max_in_flight = max_in_flight;
+      dropped = sources_[source].mailbox.set_capacity(capacity);
+    }
+    changed_.notify_all();
+    return dropped;
   }
 
   /// The item that had to go: the source's oldest waiting one, or after close() this one.
@@ -70,6 +84,17 @@ class FrameQueue {
       closed_ = true;
     }
     changed_.notify_all();
+  }
+
+  /// Takes the source's oldest waiting item out; nothing when none waits.
+  [[nodiscard]] std::optional<Item> drop_oldest(std::size_t source) {
+    std::optional<Item> dropped;
+    {
+      const std::lock_guard lock(mutex_);
+      dropped = sources_[source].mailbox.pop();
+    }
+    changed_.notify_all();
+    return dropped;
   }
 
   /// Takes all waiting items out, oldest first within a source.
@@ -122,8 +147,8 @@ class FrameQueue {
 
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::vector<Source> sources_;
-  std::size_t next_ = 0;  // whose turn it is
+  std::deque<Source> sources_;  // whose mailboxes stay where they are
+  std::size_t next_ = 0;        // whose turn it is
   bool closed_ = false;
 };
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Lets results out in the order their frames came in, whatever order the workers finish in.
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -43,9 +44,15 @@ class InOrderGate {
     publishing_ = false;
   }
 
+  /// Results that wait for one before them.
+  [[nodiscard]] std::size_t waiting() const {
+    const std::lock_guard lock(mutex_);
+    return waiting_.size();
+  }
+
  private:
   const Publish publish_;
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::map<Ticket, Result> waiting_;
   Ticket next_ticket_ = 0;
   Ticket next_out_ = 0;

@@ -6,6 +6,7 @@
 #include <deque>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace graspd {
 
@@ -24,6 +25,14 @@ class Mailbox {
     return dropped;
   }
 
+  /// At least 1. The items that had to go, oldest first.
+  [[nodiscard]] std::vector<Item> set_capacity(std::size_t capacity) {
+    capacity_ = capacity < 1 ? 1 : capacity;
+    std::vector<Item> dropped;
+    while (items_.size() > capacity_) dropped.push_back(std::move(*pop()));
+    return dropped;
+  }
+
   /// The oldest item; nothing when empty.
   [[nodiscard]] std::optional<Item> pop() {
     if (items_.empty()) return std::nullopt;
@@ -36,7 +45,7 @@ class Mailbox {
   [[nodiscard]] std::size_t size() const { return items_.size(); }
 
  private:
-  const std::size_t capacity_;
+  std::size_t capacity_;
   std::deque<Item> items_;
 };
 

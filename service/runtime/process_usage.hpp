@@ -13,6 +13,8 @@ struct ProcessUsage {
   double cpu = 0;  ///< processor time used since the last measurement, 1 = one core; 0 at the first
   std::int64_t rss_bytes = 0;  ///< resident now
   std::int64_t peak_rss_bytes = 0;
+  int threads = 0;
+  int descriptors = 0;  ///< open files and sockets
 };
 
 class ProcessUsageMeter {
@@ -27,5 +29,8 @@ class ProcessUsageMeter {
 
 /// The bytes of a line like "VmRSS:  1234 kB" of /proc/self/status; 0 when it is not there.
 [[nodiscard]] std::int64_t status_bytes(std::string_view status_text, std::string_view key);
+
+/// The number of a line like "Threads:  9"; 0 when it is not there.
+[[nodiscard]] std::int64_t status_number(std::string_view status_text, std::string_view key);
 
 }  // namespace graspd

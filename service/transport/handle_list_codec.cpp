@@ -124,6 +124,9 @@ handle_list_t make_handle_list(const HandleListHeader& header, const Gripper& gr
   list.gripper = wire_gripper(gripper);
   list.status = header.status;
   list.status_text = header.status_text;
+  list.config_revision = header.config_revision;
+  list.voxel_size = header.voxel_m;
+  list.degraded = header.degraded ? 1 : 0;
   list.points_in = detection.points_in;
   list.points_used = detection.points_used;
   list.num_segments = static_cast<std::int32_t>(detection.segments.size());
@@ -173,6 +176,9 @@ std::optional<handle_list_t> decode_handle_list(std::span<const std::byte> messa
   read(reader, list.gripper);
   list.status = reader.int8("status");
   list.status_text = reader.string("status_text", kMaxTextLength);
+  list.config_revision = reader.int64("config_revision");
+  list.voxel_size = reader.float64("voxel_size");
+  list.degraded = reader.int8("degraded");
   list.points_in = reader.int32("points_in");
   list.points_used = reader.int32("points_used");
   list.num_segments = reader.int32("num_segments");

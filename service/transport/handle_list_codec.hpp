@@ -25,6 +25,9 @@ struct HandleListHeader {
   std::string frame_name;      ///< of T_target_cloud's target
   std::int8_t status = 0;      ///< one of handle_list_t's values
   std::string status_text;
+  std::int64_t config_revision = 0;                       ///< 0: no daemon's
+  double voxel_m = 0;                                     ///< that the frame was worked on with
+  bool degraded = false;                                  ///< coarser than configured
   double latency_s = 0;                                   ///< from arrival to publishing
   std::vector<std::pair<std::string, double>> stages_ms;  ///< name and time, in the order of the pipeline
 };

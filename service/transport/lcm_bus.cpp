@@ -23,6 +23,10 @@ namespace {
   throw std::runtime_error("LCM URL '" + url + "': " + reason);
 }
 
+[[noreturn]] void fail_for_now(const std::string& url, const std::string& reason) {
+  throw BusUnavailable("LCM URL '" + url + "': " + reason);
+}
+
 /// LCM takes a host's name for the local host.
 std::string with_resolved_host(const std::string& url, const LcmUrl& parsed) {
   const std::size_t colon = std::min(parsed.network.find(':'), parsed.network.size());
@@ -34,8 +38,8 @@ std::string with_resolved_host(const std::string& url, const LcmUrl& parsed) {
   addrinfo* found = nullptr;
   const int error = getaddrinfo(host.c_str(), nullptr, &hints, &found);
   if (error != 0) {
-    fail(url, "no address for host '" + host + "' (" + gai_strerror(error) +
-                  "); remedy: check its name, or give its address");
+    fail_for_now(url, "no address for host '" + host + "' (" + gai_strerror(error) +
+                          "); remedy: check its name, or give its address");
   }
   char address[NI_MAXHOST] = {};
   getnameinfo(found->ai_addr, found->ai_addrlen, address, sizeof(address), nullptr, 0, NI_NUMERICHOST);
@@ -71,7 +75,9 @@ std::string whole_name(const std::string& channel_regex) {
 
 struct LcmBus::Subscription {
   LcmBus* bus;
+  std::string channel_regex;
   Handler handler;
+  lcm_subscription_t* made_by_lcm = nullptr;
 
   /// Called by LCM. No exception may pass through its C frames: the first one waits in the bus.
   static void dispatch(const lcm_recv_buf_t* received, const char* channel, void* user) noexcept {
@@ -89,24 +95,26 @@ LcmBus::LcmBus(const std::string& url)
     : url_(url), provider_(parse_lcm_url(url).provider), lcm_(nullptr, lcm_destroy) {
   const LcmUrl parsed = parse_lcm_url(url);
   lcm_.reset(lcm_create(checked_url(url, parsed).c_str()));
-  if (lcm_ == nullptr) fail(url, creation_failure(parsed));
+  const bool fixed = provider_ != "udpm" && provider_ != "tcpq";
+  if (lcm_ == nullptr && fixed) fail(url, creation_failure(parsed));
+  if (lcm_ == nullptr) fail_for_now(url, creation_failure(parsed));
   // LCM returns tcpq connections that were refused. udpm starts its receiver here, which who only publishes
   // is spared.
-  if (provider_ == "tcpq" && lcm_get_fileno(lcm_.get()) < 0) fail(url, creation_failure(parsed));
+  if (provider_ == "tcpq" && lcm_get_fileno(lcm_.get()) < 0) fail_for_now(url, creation_failure(parsed));
 }
 
 LcmBus::~LcmBus() = default;
 
 void LcmBus::require_receiving() {
   if (lcm_get_fileno(lcm_.get()) >= 0) return;
-  fail(
+  fail_for_now(
       url_,
       "cannot receive; remedy: check the multicast route (ip route add 239.0.0.0/8 dev lo) and the firewall");
 }
 
 void LcmBus::subscribe(const std::string& channel_regex, Handler handler, int queue_capacity) {
   require_receiving();  // after a failure lcm_subscribe would stall for ten seconds
-  auto subscription = std::make_unique<Subscription>(Subscription{this, std::move(handler)});
+  auto subscription = std::make_unique<Subscription>(Subscription{this, channel_regex, std::move(handler)});
   lcm_subscription_t* created = lcm_subscribe(lcm_.get(), whole_name(channel_regex).c_str(),
                                               &Subscription::dispatch, subscription.get());
   if (created == nullptr) {
@@ -115,6 +123,15 @@ void LcmBus::subscribe(const std::string& channel_regex, Handler handler, int qu
   }
   subscriptions_.push_back(std::move(subscription));
   lcm_subscription_set_queue_capacity(created, queue_capacity);
+  subscriptions_.back()->made_by_lcm = created;
+}
+
+void LcmBus::unsubscribe(const std::string& channel_regex) {
+  std::erase_if(subscriptions_, [&](const std::unique_ptr<Subscription>& subscription) {
+    if (subscription->channel_regex != channel_regex) return false;
+    lcm_unsubscribe(lcm_.get(), subscription->made_by_lcm);
+    return true;
+  });
 }
 
 LcmBus::Wait LcmBus::wait(std::chrono::milliseconds timeout) {
@@ -128,18 +145,31 @@ LcmBus::Wait LcmBus::wait(std::chrono::milliseconds timeout) {
   if (ready < 0) throw std::system_error(errno, std::system_category(), "poll");
   if ((waiting.revents & POLLIN) == 0) return Wait::kClosed;
 
-  errno = 0;
-  const int status = lcm_handle(lcm_.get());
+  const int status = handle();
   const bool interrupted = status < 0 && errno == EINTR;
   if (handler_error_) std::rethrow_exception(std::exchange(handler_error_, nullptr));
   if (interrupted) return Wait::kTimeout;
   return status < 0 ? Wait::kClosed : Wait::kHandled;
 }
 
+int LcmBus::handle() {
+  // Of a tcpq connection that breaks, reader and writers would each close the socket.
+  std::unique_lock lock(use_mutex_, std::defer_lock);
+  if (provider_ == "tcpq") lock.lock();
+  errno = 0;
+  return lcm_handle(lcm_.get());
+}
+
 bool LcmBus::publish(const std::string& channel, std::span<const std::byte> bytes) {
-  if (channel.size() > LCM_MAX_CHANNEL_NAME_LENGTH || bytes.size() > LCM_MAX_MESSAGE_SIZE) return false;
-  const std::scoped_lock lock(publish_mutex_);
+  if (!can_carry(channel, bytes)) return false;
+  const std::scoped_lock lock(use_mutex_);
+  // LCM would connect anew by itself, and wait for as long as the server likes.
+  if (provider_ == "tcpq" && lcm_get_fileno(lcm_.get()) < 0) return false;
   return lcm_publish(lcm_.get(), channel.c_str(), bytes.data(), static_cast<unsigned int>(bytes.size())) == 0;
+}
+
+bool LcmBus::can_carry(const std::string& channel, std::span<const std::byte> bytes) {
+  return channel.size() <= LCM_MAX_CHANNEL_NAME_LENGTH && bytes.size() <= LCM_MAX_MESSAGE_SIZE;
 }
 
 }  // namespace graspd

@@ -16,6 +16,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "service/transport/bus.hpp"
 #include "service/transport/lcm_url.hpp"
 
 namespace graspd {
@@ -44,7 +45,7 @@ class Socket {
 };
 
 [[noreturn]] void fail(const std::string& url, const std::string& reason, std::string_view remedy) {
-  throw std::runtime_error("LCM URL '" + url + "': " + reason + "; remedy: " + std::string(remedy));
+  throw BusUnavailable("LCM URL '" + url + "': " + reason + "; remedy: " + std::string(remedy));
 }
 
 template <class Value>

@@ -7,7 +7,7 @@
 namespace graspd {
 
 /// Sends LCM's own self-test message to the URL's group, time to live 0, and waits for it. Throws
-/// std::runtime_error whose text names the URL, the reason and the remedy: at once without a route, after two
+/// BusUnavailable whose text names the URL, the reason and the remedy: at once without a route, after two
 /// seconds of silence.
 void require_multicast(const std::string& url);
 

@@ -24,6 +24,14 @@ std::string_view name(RefusalReason reason) {
       return "bad_field";
     case RefusalReason::kBadCalibration:
       return "bad_calibration";
+    case RefusalReason::kUnsigned:
+      return "unsigned";
+    case RefusalReason::kForged:
+      return "forged";
+    case RefusalReason::kReplayed:
+      return "replayed";
+    case RefusalReason::kStale:
+      return "stale";
   }
   return "unknown";
 }

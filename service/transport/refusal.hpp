@@ -21,9 +21,13 @@ enum class RefusalReason : std::uint8_t {
   kMissingField,    ///< a cloud without x, y or z
   kBadField,        ///< of the wrong type, outside the point, or there twice
   kBadCalibration,  ///< intrinsics, depth scale or viewpoint that no sensor has
+  kUnsigned,        ///< no sealed_t where only those are taken
+  kForged,          ///< a seal that no key of ours gives: wrong key, other channel, changed on the way
+  kReplayed,        ///< a sealed message that has come before
+  kStale,           ///< a sealed message of another time
 };
 inline constexpr std::size_t kNumRefusalReasons =
-    static_cast<std::size_t>(RefusalReason::kBadCalibration) + 1;
+    static_cast<std::size_t>(RefusalReason::kStale) + 1;
 
 /// lower_snake, as on the wire.
 [[nodiscard]] std::string_view name(RefusalReason reason);

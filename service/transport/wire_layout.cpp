@@ -23,6 +23,10 @@ std::string_view type_name(std::uint64_t fingerprint) {
       return "handle_list_t";
     case kStatusFingerprint:
       return "status_t";
+    case kSealedFingerprint:
+      return "sealed_t";
+    case kControlFingerprint:
+      return "control_t";
     default:
       return {};
   }

@@ -13,8 +13,10 @@ namespace graspd {
 /// The first eight bytes of a message, big-endian; a test holds them equal to the generated types'.
 inline constexpr std::uint64_t kPointCloudFingerprint = 0x19d75af77ba18842;
 inline constexpr std::uint64_t kDepthImageFingerprint = 0xa92f072e49028cde;
-inline constexpr std::uint64_t kHandleListFingerprint = 0x997d5fa0df4f1be1;
-inline constexpr std::uint64_t kStatusFingerprint = 0x633079675b4d9c45;
+inline constexpr std::uint64_t kHandleListFingerprint = 0x9bf98642e84fd318;
+inline constexpr std::uint64_t kStatusFingerprint = 0x3e93e45b223e4491;
+inline constexpr std::uint64_t kControlFingerprint = 0x1a187596f91f8882;
+inline constexpr std::uint64_t kSealedFingerprint = 0xa70cb71154832893;
 inline constexpr std::size_t kFingerprintBytes = 8;
 
 /// Values of point_field_t.datatype.

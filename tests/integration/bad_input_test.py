@@ -68,9 +68,11 @@ class BadInput(GraspdTest):
     def test_no_multicast_route(self):
         subprocess.run(["ip", "route", "del", "239.0.0.0/8", "dev", "lo"], check=True)
         self.addCleanup(subprocess.run, ["ip", "route", "add", "239.0.0.0/8", "dev", "lo"], check=True)
-        for name in ("graspd", "graspd-listen", "graspd-status", "graspd-simulate"):
+        impatient = self.write_config("lcm: {give_up_s: 0.3, retry_longest_s: 0.1}")
+        for name, *options in (["graspd", "--config", impatient], ["graspd-listen"], ["graspd-status"],
+                               ["graspd-simulate"]):
             with self.subTest(program=name):
-                program = self.run_program(name, code=1)
+                program = self.run_program(name, *options, code=1)
                 self.assertIn("ip route add 239.0.0.0/8 dev lo", program.err)
                 self.assertIn("239.255.76.67:7667", program.err)
 

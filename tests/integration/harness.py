@@ -38,8 +38,9 @@ def _unshare():
     return None
 
 
-def run_tests():
-    """Runs the calling file's tests in a private network with a multicast route; the end of every test file."""
+def run_tests(argv=None):
+    """Runs the calling file's tests in a private network with a multicast route; the end of every test file. argv: for
+    unittest, where the file has options of its own."""
     if _INSIDE not in os.environ:
         command = _unshare()
         if command is None:
@@ -50,7 +51,7 @@ def run_tests():
         setup = 'ip link set lo up && ip route add 239.0.0.0/8 dev lo && exec "$@"'
         arguments = command + ["sh", "-c", setup, "sh", sys.executable, "-B", script] + sys.argv[1:]
         os.execvp(arguments[0], arguments)
-    result = unittest.main(exit=False, verbosity=2).result
+    result = unittest.main(argv=argv, exit=False, verbosity=2).result
     everything_skipped = result.testsRun > 0 and len(result.skipped) == result.testsRun
     sys.exit(1 if not result.wasSuccessful() else SKIPPED if everything_skipped else 0)
 
@@ -79,7 +80,7 @@ class Program:
     def __init__(self, folder, name, *arguments, environment=None, stdin=subprocess.DEVNULL):
         self.name = name
         number = len(list(pathlib.Path(folder).glob("*.out")))
-        self._paths = [pathlib.Path(folder) / f"{number:02}-{name}.{end}" for end in ("out", "err")]
+        self._paths = [pathlib.Path(folder) / f"{number:02}-{pathlib.Path(name).name}.{end}" for end in ("out", "err")]
         with open(self._paths[0], "wb") as out, open(self._paths[1], "wb") as err:
             self.process = subprocess.Popen([str(BIN / name), *map(str, arguments)], stdin=stdin, stdout=out,
                                             stderr=err, env={**os.environ, **(environment or {})})

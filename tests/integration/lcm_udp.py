@@ -13,19 +13,19 @@ FRAGMENT_BYTES = 60000
 
 
 class Bus:
-    """Sends and receives messages on the loopback interface; keeps all that it received, in order."""
+    """Sends and receives messages on one interface, given by its address; keeps all that it received, in order."""
 
-    def __init__(self):
+    def __init__(self, address="127.0.0.1"):
         self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM, socket.IPPROTO_UDP)
         self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         if hasattr(socket, "SO_REUSEPORT"):
             self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEPORT, 1)
         self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4 << 20)
         self._socket.bind((GROUP, PORT))
-        membership = socket.inet_aton(GROUP) + socket.inet_aton("127.0.0.1")
+        membership = socket.inet_aton(GROUP) + socket.inet_aton(address)
         self._socket.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, membership)
         self._socket.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_TTL, 0)
-        self._socket.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_IF, socket.inet_aton("127.0.0.1"))
+        self._socket.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_IF, socket.inet_aton(address))
         self._partial = {}
         self._sequence = 0
         self.messages = []  # (channel, bytes)

@@ -38,7 +38,8 @@ def empty_list(frame):
     gripper = SimpleNamespace(name="", aperture=0, finger_width=0, finger_thickness=0, finger_length=0, grasp_depth=0,
                               min_gap=0)
     return TYPES["handle_list_t"].encode(
-        utime=0, seq=0, source_channel="", frame_name=frame, gripper=gripper, status=0, status_text="", points_in=0,
+        utime=0, seq=0, source_channel="", frame_name=frame, gripper=gripper, status=0, status_text="",
+        config_revision=0, voxel_size=0, degraded=0, points_in=0,
         points_used=0, num_segments=0, num_candidates=0, num_candidate_failures=0, candidate_failures=[],
         num_segment_failures=0, segment_failures=[], num_stages=0, stages=[], latency=0, num_handles=0, handles=[])
 

@@ -48,6 +48,7 @@ OWN = {
 # Foreign headers by library, and the layers that may use it.
 LIBRARIES = [
     ("LCM", re.compile(r"lcm/"), {"service/transport", "client", "tests"}),
+    ("libsodium", re.compile(r"sodium"), {"service/transport"}),
     ("yaml-cpp", re.compile(r"yaml-cpp/"), {"service/config", "tests"}),
     ("spdlog", re.compile(r"(spdlog|fmt)/"), {"service/runtime", "service/daemon", "client"}),
     ("CLI11", re.compile(r"CLI/"), {"service/daemon", "client", "tests"}),

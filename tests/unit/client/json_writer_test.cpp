@@ -10,7 +10,6 @@
 
 #include "client/common/handle_text.hpp"
 #include "client/simulate/rng.hpp"
-#include "client/status/status_text.hpp"
 #include "tests/unit/client/sample_list.hpp"
 
 namespace graspd {
@@ -84,45 +83,6 @@ TEST(HandleListJson, ReadsBack) {
     }
     EXPECT_EQ(json["handles"][i]["score"].as<float>(), static_cast<float>(list.handles[i].score));
   }
-}
-
-status_t sample_status() {
-  status_t status{};
-  status.version = "0.1.0";
-  status.host = "robot";
-  status.pid = 42;
-  status.uptime = 3725.4;
-  status.rss = 123'000'000;
-  source_status_t source{};
-  source.name = "wrist";
-  source.channel = "WRIST_CLOUD";
-  source.received = 100;
-  source.processed = 90;
-  source.dropped = 8;
-  source.refused = 2;
-  source.latency_p50 = 0.0123;
-  source.refusals = {{"truncated", 2}};
-  source.num_refusals = 1;
-  source.last_error = "ends before\nits data";
-  status.sources = {source};
-  status.num_sources = 1;
-  return status;
-}
-
-TEST(StatusJson, ReadsBack) {
-  const YAML::Node json = YAML::Load(status_json(sample_status()));
-  EXPECT_EQ(json["state"].as<std::string>(), "running");
-  EXPECT_EQ(json["rss"].as<std::int64_t>(), 123'000'000);
-  EXPECT_EQ(json["sources"][0]["dropped"].as<int>(), 8);
-  EXPECT_EQ(json["sources"][0]["refusals"]["truncated"].as<int>(), 2);
-}
-
-TEST(StatusText, NamesTheSourceAndItsLastError) {
-  const std::string text = status_text(sample_status());
-  EXPECT_NE(text.find("graspd 0.1.0 on robot (pid 42) running for 1:02:05"), std::string::npos) << text;
-  EXPECT_NE(text.find("wrist   WRIST_CLOUD       100         90        8        2"), std::string::npos)
-      << text;
-  EXPECT_NE(text.find("WRIST_CLOUD: last refusal: ends before?its data\n"), std::string::npos) << text;
 }
 
 }  // namespace

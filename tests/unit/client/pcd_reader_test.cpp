@@ -51,6 +51,31 @@ TEST(PcdReader, LyingHeadersAreRefused) {
   EXPECT_EQ(with("POINTS 48", ""), "loaded") << "older files have none";
 }
 
+TEST(PcdReader, HoldsTheLimits) {
+  const std::string bytes = saved_bytes();
+  CloudFileLimits limits;
+  limits.max_points = 47;
+  const auto refusal = [&](const std::string& file) {
+    try {
+      (void)parse_pcd(file, limits);
+      return std::string();
+    } catch (const std::runtime_error& error) {
+      return std::string(error.what());
+    }
+  };
+  EXPECT_EQ(refusal(bytes), "has 48 points, expected at most 47");
+  limits.max_points = 48;
+  EXPECT_EQ(refusal(bytes), "");
+  // 2 GB of points from 200 kB of file: what a packed file may promise.
+  std::string packed =
+      "VERSION 0.7\nFIELDS x y z a\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 1000\nWIDTH 500000\nHEIGHT 1\n"
+      "POINTS 500000\nDATA binary_compressed\n";
+  packed += std::string(200'000, '\0');
+  limits = {};
+  limits.max_unpacked_bytes = 1 << 20;
+  EXPECT_EQ(refusal(packed), "unpacks to 2006000000 bytes, expected at most 1048576");
+}
+
 TEST(PcdReader, EveryTruncationIsRefused) {
   const TempFolder folder;
   ASSERT_EQ(pcl::PCDWriter().writeBinaryCompressed((folder / "c.pcd").string(), pcl_sample_cloud()), 0);

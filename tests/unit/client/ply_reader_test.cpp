@@ -56,6 +56,30 @@ TEST(PlyReader, OtherElementsAreSkipped) {
   EXPECT_EQ(cloud.label, (std::vector<std::uint32_t>{20, 0}));
 }
 
+/// Found by the fuzzer: no comparison with a number holds for NaN.
+TEST(PlyReader, ViewpointsThatAreNoPlace) {
+  for (const std::string place : {"nan 0 0", "0 -nan 0", "inf 0 0", "0 0 -inf", "0 1e7 0"}) {
+    const std::string file =
+        "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+        "element camera 1\nproperty float view_px\nproperty float view_py\nproperty float "
+        "view_pz\nend_header\n"
+        "1 2 3\n" +
+        place + "\n";
+    EXPECT_THROW((void)parse_ply(file), std::runtime_error) << place;
+  }
+}
+
+TEST(PlyReader, HoldsTheLimit) {
+  CloudFileLimits limits;
+  limits.max_points = 1;
+  const std::string file =
+      "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float "
+      "z\nend_header\n"
+      "1 2 3\n4 5 6\n";
+  EXPECT_EQ(parse_ply(file).cloud.size(), 2u);
+  EXPECT_THROW((void)parse_ply(file, limits), std::runtime_error);
+}
+
 TEST(PlyReader, ReadsBigEndian) {
   std::string bytes =
       "ply\nformat binary_big_endian 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty "

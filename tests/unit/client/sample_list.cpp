@@ -27,6 +27,8 @@ handle_list_t sample_list(int num_handles, unsigned seed) {
   list.gripper.aperture = static_cast<double>(0.08f);
   list.status = num_handles > 0 ? handle_list_t::OK : handle_list_t::NO_HANDLES;
   list.status_text = "as found";
+  list.config_revision = 3;
+  list.voxel_size = static_cast<double>(0.003f);
   list.points_in = 307200;
   list.points_used = 43210;
   list.num_segments = 12;

@@ -231,5 +231,26 @@ TEST(DetectConfig, IsTheServicesThenTheSensors) {
   EXPECT_EQ(load_detect_config("", "realsense_d435").workspace.max_range_m, 1.5f);
 }
 
+TEST(ServiceConfig, TheControlChannelIsNobodyElses) {
+  EXPECT_EQ(load("lcm: {control_channel: GRASPD_CONTROL}").lcm.control_channel, "GRASPD_CONTROL");
+  EXPECT_EQ(load("").lcm.control_channel, "") << "off unless it is asked for";
+  EXPECT_NE(error_of("lcm: {control_channel: GRASPD_STATUS}").find("lcm.control_channel: two types"),
+            std::string::npos);
+  EXPECT_NE(error_of("lcm: {control_channel: \"A B\"}").find("lcm.control_channel: not a channel"),
+            std::string::npos);
+  EXPECT_NE(error_of("lcm: {control_channel: GRASPD_HANDLES}").find("handles_channel: two types"),
+            std::string::npos);
+  EXPECT_NE(error_of("{lcm: {control_channel: CAM_C}, sources: [{name: a, channel: CAM_.*}]}")
+                .find("sources[0].channel"),
+            std::string::npos);
+}
+
+TEST(ServiceConfig, DegradationIsCheckedAgainstTheSourcesOwnVoxels) {
+  const std::string error = error_of(
+      "sources: [{name: a, channel: A, detect: {downsample: {leaf_size_m: 0.005}}, degrade: {voxel_m: "
+      "0.004}}]");
+  EXPECT_NE(error.find("sources[0].degrade.voxel_m: not coarser"), std::string::npos) << error;
+}
+
 }  // namespace
 }  // namespace graspd

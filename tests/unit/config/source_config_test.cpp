@@ -48,5 +48,27 @@ TEST(SensorPose, WrongOnes) {
   EXPECT_EQ((SensorPose{"", {0, 0, 1}, {}, {}}).validate()->key, "frame_name");
 }
 
+TEST(DegradeConfig, NeighbourhoodsGrowWithTheVoxels) {
+  SourceConfig source;
+  source.degrade.voxel_m = 2.0 * static_cast<double>(source.detect.downsample.leaf_size_m);
+  EXPECT_FALSE(source.validate());
+  const DetectConfig coarse = source.degraded_detect();
+  EXPECT_FLOAT_EQ(coarse.downsample.leaf_size_m, 2 * source.detect.downsample.leaf_size_m);
+  EXPECT_FLOAT_EQ(coarse.neighborhoods.radius_m, 2 * source.detect.neighborhoods.radius_m);
+  EXPECT_FALSE(coarse.validate());
+}
+
+TEST(DegradeConfig, CoarserAndWithRoomBetweenTheLevels) {
+  SourceConfig source;
+  EXPECT_FALSE(source.validate()) << "off";
+  source.degrade.voxel_m = static_cast<double>(source.detect.downsample.leaf_size_m);
+  ASSERT_TRUE(source.validate());
+  EXPECT_EQ(source.validate()->key, "degrade.voxel_m");
+  EXPECT_FALSE(source.degrade.validate());
+  source.degrade.below_ms = source.degrade.above_ms;
+  ASSERT_TRUE(source.degrade.validate());
+  EXPECT_EQ(source.degrade.validate()->key, "below_ms");
+}
+
 }  // namespace
 }  // namespace graspd

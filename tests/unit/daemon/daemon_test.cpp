@@ -14,83 +14,14 @@
 #include "service/transport/handle_list_codec.hpp"
 #include "service/transport/status_codec.hpp"
 #include "tests/unit/daemon/messages.hpp"
+#include "tests/unit/daemon/running_daemon.hpp"
 
 namespace graspd {
 namespace {
 
 using namespace std::chrono_literals;
 
-// ThreadSanitizer cannot see what Debian's libtbb orders (service/runtime/tsan_suppressions.cpp), and to
-// suppress its reports takes minutes: there a frame has one thread. Workers, gates and the bus run side by
-// side as ever.
-#ifdef __SANITIZE_THREAD__
-constexpr int kMostThreads = 1;
-#else
-constexpr int kMostThreads = 4;
-#endif
-
-class DaemonTest : public testing::Test {
- protected:
-  DaemonTest() {
-    bus_.subscribe(".*_HANDLES", [this](const Packet& packet) {
-      const auto list = decode_handle_list(packet.bytes);
-      ASSERT_TRUE(list);
-      answers_.push_back(*list);
-    });
-    bus_.subscribe("GRASPD_STATUS", [this](const Packet& packet) {
-      const auto status = decode_status(packet.bytes);
-      ASSERT_TRUE(status);
-      statuses_.push_back(*status);
-    });
-  }
-
-  void start(ServiceConfig config) {
-    config.threads = std::min(2, kMostThreads);
-    daemon_ = std::make_unique<Daemon>(std::move(config), bus_, clock_, log_);
-  }
-
-  void send(const std::string& channel, const Bytes& bytes) { ASSERT_TRUE(bus_.publish(channel, bytes)); }
-
-  template <class Condition>
-  void run_until(Condition condition) {
-    const auto deadline = std::chrono::steady_clock::now() + 120s;
-    while (!condition()) {
-      ASSERT_LT(std::chrono::steady_clock::now(), deadline) << "waited in vain";
-      daemon_->step();
-    }
-  }
-  void run_until_answers(std::size_t count) {
-    run_until([&] { return answers_.size() >= count; });
-  }
-  /// What the daemon sent, without its doing anything more.
-  void receive_rest() {
-    while (bus_.wait(0ms) == LcmBus::Wait::kHandled) {
-    }
-  }
-  [[nodiscard]] std::vector<std::int64_t> answered_seqs() const {
-    std::vector<std::int64_t> seqs;
-    for (const handle_list_t& list : answers_) seqs.push_back(list.seq);
-    return seqs;
-  }
-
-  LcmBus bus_{"memq://"};
-  SystemClock clock_;
-  std::vector<std::string> lines_;
-  std::mutex lines_mutex_;
-  Log log_{clock_, [this](const std::string& line) {
-             const std::lock_guard lock(lines_mutex_);
-             lines_.push_back(line);
-           }};
-  std::vector<handle_list_t> answers_;
-  std::vector<status_t> statuses_;
-  std::unique_ptr<Daemon> daemon_;  // last: it stops before what it uses goes
-};
-
-std::vector<std::int64_t> numbers_to(std::int64_t count) {
-  std::vector<std::int64_t> numbers;
-  for (std::int64_t i = 0; i < count; ++i) numbers.push_back(i);
-  return numbers;
-}
+using DaemonTest = RunningDaemon;
 
 TEST_F(DaemonTest, AnswersCloudsAndDepthImages) {
   start({});

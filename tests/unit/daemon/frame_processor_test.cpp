@@ -24,7 +24,8 @@ class FrameProcessorTest : public testing::Test {
     return {peek_header(bytes, limits_), bytes, clock_.now()};
   }
   [[nodiscard]] Answer process(const Bytes& bytes) const {
-    return FrameProcessor(source_, "CLOUD_7", limits_, clock_).process(message(bytes), running_);
+    return FrameProcessor(source_, "CLOUD_7", limits_, clock_, 4)
+        .process(message(bytes), Effort::kFull, running_);
   }
 
 #ifdef __SANITIZE_THREAD__
@@ -125,13 +126,46 @@ TEST_F(FrameProcessorTest, TooManyPointsAreRefused) {
 
 TEST_F(FrameProcessorTest, ACancelledFrameIsDropped) {
   const std::atomic<bool> cancelled{true};
-  const FrameProcessor processor(source_, "CLOUD_7", limits_, clock_);
-  const Answer answer = processor.process(message(cloud_message(4, box_on_table())), cancelled);
+  const FrameProcessor processor(source_, "CLOUD_7", limits_, clock_, 4);
+  const Answer answer =
+      processor.process(message(cloud_message(4, box_on_table())), Effort::kFull, cancelled);
   EXPECT_EQ(answer.outcome, Outcome::kDropped);
   EXPECT_EQ(answer.list.status, +handle_list_t::OVERLOADED);
   EXPECT_EQ(answer.list.seq, 4);
   EXPECT_EQ(answer.list.num_handles, 0);
   expect_consistent(answer.list);
+}
+
+TEST_F(FrameProcessorTest, LessEffortIsSeenInTheAnswer) {
+  source_.degrade.voxel_m = 0.006;
+  const FrameProcessor processor(source_, "CLOUD_7", limits_, clock_, 4);
+  const FrameMessage frame = message(cloud_message(5, box_on_table()));
+  const Answer full = processor.process(frame, Effort::kFull, running_);
+  const Answer degraded = processor.process(frame, Effort::kDegraded, running_);
+  expect_consistent(degraded.list);
+  EXPECT_EQ(full.list.degraded, 0);
+  EXPECT_EQ(degraded.list.degraded, 1);
+  EXPECT_FLOAT_EQ(static_cast<float>(full.list.voxel_size), source_.detect.downsample.leaf_size_m);
+  EXPECT_FLOAT_EQ(static_cast<float>(degraded.list.voxel_size), 0.006f);
+  EXPECT_LT(degraded.list.points_used, full.list.points_used);
+  EXPECT_EQ(degraded.list.status, +handle_list_t::OK) << degraded.list.status_text;
+  EXPECT_EQ(degraded.list.config_revision, 4);
+}
+
+TEST_F(FrameProcessorTest, LessEffortIsTheSameWhereNoneIsConfigured) {
+  const FrameProcessor processor(source_, "CLOUD_7", limits_, clock_, 4);
+  const Answer answer =
+      processor.process(message(cloud_message(5, box_on_table())), Effort::kDegraded, running_);
+  EXPECT_EQ(answer.list.degraded, 0);
+}
+
+TEST_F(FrameProcessorTest, DeadlinesCountFromTheArrival) {
+  FrameMessage frame = message(cloud_message(5, PointCloud{}));
+  frame.arrival = Clock::TimePoint(std::chrono::seconds(7));
+  EXPECT_FALSE(FrameProcessor(source_, "CLOUD_7", limits_, clock_, 1).deadline(frame));
+  source_.deadline_ms = 250;
+  EXPECT_EQ(FrameProcessor(source_, "CLOUD_7", limits_, clock_, 1).deadline(frame),
+            frame.arrival + std::chrono::milliseconds(250));
 }
 
 /// Gives the time until it is asked once too often: an exception in the middle of a frame.
@@ -149,8 +183,8 @@ class FailingClock final : public Clock {
 
 TEST_F(FrameProcessorTest, AnExceptionBecomesAFailedAnswer) {
   const FailingClock failing;
-  const FrameProcessor processor(source_, "CLOUD_7", limits_, failing);
-  const Answer answer = processor.process(message(cloud_message(6, box_on_table())), running_);
+  const FrameProcessor processor(source_, "CLOUD_7", limits_, failing, 4);
+  const Answer answer = processor.process(message(cloud_message(6, box_on_table())), Effort::kFull, running_);
   EXPECT_EQ(answer.outcome, Outcome::kFailed);
   EXPECT_EQ(answer.list.status, +handle_list_t::FAILED);
   EXPECT_EQ(answer.list.status_text, "out of time");

@@ -65,6 +65,25 @@ TEST(DetectHostile, AMillionPointsAtOnePlace) {
   EXPECT_EQ(detection.points_used, 1);
 }
 
+TEST(DetectHostile, AMillionPointsInOneCell) {
+  const PointCloud cloud = random_cloud(1000000, {0.1f, 0.2f, 0.7f}, {0.108f, 0.208f, 0.708f}, 1);
+  const Detection detection = detect(cloud);
+  EXPECT_EQ(detection.status, DetectionStatus::kNoHandles);
+  EXPECT_LE(detection.points_used, 64);
+}
+
+/// Found by the fuzzer: a picture of them has no height.
+TEST(DetectHostile, PointsOnNearlyOneRay) {
+  for (const float slope : {0.f, 1e-38f, 1e-30f, 1e-20f, 1e-12f, 1e-6f}) {
+    PointCloud cloud;
+    for (int i = 1; i <= 200; ++i) {
+      const float z = 0.5f + 0.001f * static_cast<float>(i);
+      cloud.push_back({slope * static_cast<float>(i % 7) * z, slope * static_cast<float>(i % 5) * z, z});
+    }
+    EXPECT_EQ(detect(cloud).points_in, 200) << slope;
+  }
+}
+
 TEST(DetectHostile, HugeAndTinyCoordinatesBetweenTheOthers) {
   const PointCloud scene = finite_points(render(three_objects()).cloud);
   PointCloud cloud = scene;

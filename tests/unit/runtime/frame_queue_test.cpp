@@ -93,6 +93,27 @@ TEST(FrameQueue, CloseWakesWaitingWorkers) {
   EXPECT_FALSE(worker.get());
 }
 
+TEST(FrameQueue, TakesOtherLimitsWhileItWorks) {
+  FrameQueue<int> queue;
+  const std::size_t source = queue.add_source(4, 1);
+  for (int i = 0; i < 4; ++i) ASSERT_FALSE(queue.push(source, i));
+  ASSERT_EQ(queue.take()->item, 0);
+  EXPECT_EQ(queue.configure(source, 2, 2), (std::vector<int>{1}));
+  EXPECT_EQ(queue.take()->item, 2) << "two may be in flight now";
+  EXPECT_EQ(queue.drop_oldest(source), 3);
+  EXPECT_EQ(queue.drop_oldest(source), std::nullopt);
+}
+
+TEST(FrameQueue, ANewLimitWakesAWorker) {
+  FrameQueue<int> queue;
+  const std::size_t source = queue.add_source(4, 1);
+  for (int i = 0; i < 2; ++i) ASSERT_FALSE(queue.push(source, i));
+  ASSERT_TRUE(queue.take());
+  auto second = std::async(std::launch::async, [&] { return queue.take()->item; });
+  EXPECT_TRUE(queue.configure(source, 4, 2).empty());
+  EXPECT_EQ(second.get(), 1);
+}
+
 TEST(FrameQueue, DropsWhatWaitsOldestFirst) {
   FrameQueue<int> queue;
   const std::size_t a = queue.add_source(4, 1);

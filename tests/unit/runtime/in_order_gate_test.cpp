@@ -41,11 +41,13 @@ TEST(InOrderGate, TheFirstReleaseOfATicketCounts) {
   InOrderGate<int> gate([&](int result) { out.push_back(result); });
   for (std::uint64_t expected = 0; expected < 3; ++expected) ASSERT_EQ(gate.take_ticket(), expected);
   gate.release(1, 10);
+  EXPECT_EQ(gate.waiting(), 1u);
   gate.release(1, 11);
   gate.release(0, 0);
   gate.release(0, 1);
   gate.release(1, 12);
   gate.release(2, 20);
+  EXPECT_EQ(gate.waiting(), 0u);
   EXPECT_EQ(out, (std::vector<int>{0, 10, 20}));
 }
 

@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace graspd {
 namespace {
@@ -14,6 +15,16 @@ TEST(Mailbox, EmptyHasNothing) {
   Mailbox<int> mailbox(3);
   EXPECT_TRUE(mailbox.empty());
   EXPECT_EQ(mailbox.pop(), std::nullopt);
+}
+
+TEST(Mailbox, ASmallerOneReturnsWhatDoesNotFit) {
+  Mailbox<int> mailbox(4);
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(mailbox.push(i), std::nullopt);
+  EXPECT_EQ(mailbox.set_capacity(2), (std::vector<int>{0, 1}));
+  EXPECT_EQ(mailbox.push(4), 2);
+  EXPECT_TRUE(mailbox.set_capacity(9).empty());
+  EXPECT_EQ(mailbox.push(5), std::nullopt);
+  EXPECT_EQ(mailbox.set_capacity(0).size(), 2u) << "one at least stays";
 }
 
 TEST(Mailbox, FullReturnsItsOldest) {

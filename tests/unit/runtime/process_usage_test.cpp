@@ -3,9 +3,12 @@
 #include "service/runtime/process_usage.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <cstddef>
+#include <future>
+#include <thread>
 #include <vector>
 
 #include "tests/unit/runtime/manual_clock.hpp"
@@ -21,6 +24,24 @@ TEST(ProcessUsage, ReadsTheKernelsLines) {
   EXPECT_EQ(status_bytes(text, "VmHWM"), 2048 * 1024);
   EXPECT_EQ(status_bytes(text, "VmSwap"), 0);
   EXPECT_EQ(status_bytes("", "VmRSS"), 0);
+  EXPECT_EQ(status_number("VmRSS:\t 1 kB\nThreads:\t17\n", "Threads"), 17);
+}
+
+TEST(ProcessUsage, CountsThreadsAndDescriptors) {
+  ManualClock clock;
+  ProcessUsageMeter meter;
+  const ProcessUsage before = meter.measure(clock.now());
+  EXPECT_GE(before.threads, 1);
+  EXPECT_GE(before.descriptors, 3);
+  const int copy = dup(0);
+  std::promise<void> end;
+  std::thread thread([&] { end.get_future().wait(); });
+  const ProcessUsage after = meter.measure(clock.now());
+  EXPECT_EQ(after.descriptors, before.descriptors + 1);
+  EXPECT_EQ(after.threads, before.threads + 1);
+  end.set_value();
+  thread.join();
+  close(copy);
 }
 
 TEST(ProcessUsage, SeesMemoryThatIsUsed) {

@@ -93,14 +93,8 @@ TEST(HandleListCodec, ListSaysWhatTheDetectionFound) {
   Gripper gripper;
   gripper.name = "test";
   gripper.min_gap_m = 0.017f;
-  const HandleListHeader header{11,
-                                12,
-                                "CLOUD",
-                                "camera",
-                                wire_status(detection.status),
-                                "text",
-                                0.25,
-                                {{"normals", 1.5}, {"growing", 2.5}}};
+  const HandleListHeader header{11, 12,    "CLOUD", "camera", wire_status(detection.status),       "text",
+                                6,  0.004, true,    0.25,     {{"normals", 1.5}, {"growing", 2.5}}};
   const auto list =
       decode_handle_list(encode(make_handle_list(header, gripper, detection, Eigen::Isometry3f::Identity())));
   ASSERT_TRUE(list.has_value());
@@ -110,6 +104,9 @@ TEST(HandleListCodec, ListSaysWhatTheDetectionFound) {
   EXPECT_EQ(list->frame_name, "camera");
   EXPECT_EQ(list->status, +handle_list_t::OK);
   EXPECT_EQ(list->status_text, "text");
+  EXPECT_EQ(list->config_revision, 6);
+  EXPECT_EQ(list->voxel_size, 0.004);
+  EXPECT_EQ(list->degraded, 1);
   EXPECT_EQ(list->gripper.name, "test");
   EXPECT_EQ(list->gripper.min_gap, double{0.017f});
   EXPECT_EQ(list->gripper.aperture, double{gripper.aperture_m});

@@ -50,13 +50,17 @@ source_status_t random_source(Random& random) {
   source_status_t source;
   source.name = random_text(random);
   source.channel = random_text(random);
-  for (auto* member : {&source.received, &source.processed, &source.dropped, &source.refused, &source.pending,
-                       &source.lost}) {
+  for (auto* member : {&source.received, &source.processed, &source.failed, &source.coarse, &source.dropped,
+                       &source.refused, &source.pending, &source.lost}) {
     *member = static_cast<std::int64_t>(random());
   }
   source.rate = random_double(random);
+  source.age = random_double(random);
+  source.degraded = static_cast<std::int8_t>(random_int(random, 0, 1));
   source.latency_p50 = random_double(random);
   source.latency_p99 = random_double(random);
+  source.drops = random_reasons(random);
+  source.num_drops = static_cast<std::int32_t>(source.drops.size());
   source.refusals = random_reasons(random);
   source.num_refusals = static_cast<std::int32_t>(source.refusals.size());
   source.last_error = random_text(random);
@@ -139,6 +143,9 @@ handle_list_t random_handle_list(Random& random) {
   list.gripper = {random_text(random), 0.1, 0.2, 0.3, 0.4, 0.5, random_double(random)};
   list.status = static_cast<std::int8_t>(random_int(random, -128, 127));
   list.status_text = random_text(random);
+  list.config_revision = static_cast<std::int64_t>(random());
+  list.voxel_size = random_double(random);
+  list.degraded = static_cast<std::int8_t>(random_int(random, 0, 1));
   for (auto* member : {&list.points_in, &list.points_used, &list.num_segments, &list.num_candidates}) {
     *member = random_int(random, 0, 1'000'000);
   }
@@ -166,11 +173,34 @@ status_t random_status(Random& random) {
   status.cpu = random_double(random);
   status.rss = static_cast<std::int64_t>(random());
   status.peak_rss = static_cast<std::int64_t>(random());
-  status.num_workers = random_int(random, 0, 64);
-  status.ignored = static_cast<std::int64_t>(random());
+  for (auto* member :
+       {&status.num_threads, &status.num_descriptors, &status.num_workers, &status.num_stuck}) {
+    *member = random_int(random, 0, 64);
+  }
+  for (auto* member :
+       {&status.waiting_bytes, &status.receive_errors, &status.reassembly_errors, &status.reconnects,
+        &status.log_lost, &status.ignored, &status.config_revision, &status.control_id}) {
+    *member = static_cast<std::int64_t>(random());
+  }
+  status.config_error = random_text(random);
+  status.overrides = random_text(random);
+  for (int i = random_int(random, 0, 3); i > 0; --i) {
+    status.errors.push_back({static_cast<std::int64_t>(random()), random_text(random), random_text(random),
+                             static_cast<std::int64_t>(random())});
+  }
+  status.num_errors = static_cast<std::int32_t>(status.errors.size());
   for (int i = random_int(random, 0, 3); i > 0; --i) status.sources.push_back(random_source(random));
   status.num_sources = static_cast<std::int32_t>(status.sources.size());
   return status;
+}
+
+control_t random_control(Random& random) {
+  control_t control;
+  control.utime = static_cast<std::int64_t>(random());
+  control.id = random_int(random, 1, 1 << 30);
+  control.command = static_cast<std::int8_t>(random_int(random, control_t::RELOAD, control_t::RESET));
+  control.text = random_text(random);
+  return control;
 }
 
 point_cloud_t small_point_cloud() {

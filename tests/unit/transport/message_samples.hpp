@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "graspd/control_t.hpp"
 #include "graspd/depth_image_t.hpp"
 #include "graspd/handle_list_t.hpp"
 #include "graspd/point_cloud_t.hpp"
@@ -29,6 +30,7 @@ using Random = std::mt19937_64;
 [[nodiscard]] depth_image_t random_depth_image(Random& random, int max_side);
 [[nodiscard]] handle_list_t random_handle_list(Random& random);
 [[nodiscard]] status_t random_status(Random& random);
+[[nodiscard]] control_t random_control(Random& random);
 
 /// One point, to be spoilt.
 [[nodiscard]] point_cloud_t small_point_cloud();

@@ -37,7 +37,9 @@ TEST(StatusCodec, RefusesTruncatedLongerAndForeignMessages) {
 TEST(StatusCodec, SurvivesEveryCorruption) {
   Random random(50);
   status_t status = random_status(random);
-  while (status.num_sources != 1 || status.sources[0].num_refusals == 0) status = random_status(random);
+  while (status.num_errors == 0 || status.num_sources != 1 || status.sources[0].num_refusals == 0 ||
+         status.sources[0].num_drops == 0)
+    status = random_status(random);
   const Bytes message = encode(status);
   forget_allocations();
   for_each_corruption(message, [](const Bytes& corrupt) { (void)decode_status(corrupt); });
@@ -58,6 +60,12 @@ TEST(StatusCodec, CountsThatLieAreRefusedOrThrow) {
   }
   while (status.sources.empty()) status = random_status(random);
   ++status.sources[0].num_refusals;
+  EXPECT_THROW((void)encode(status), std::invalid_argument);
+  --status.sources[0].num_refusals;
+  ++status.sources[0].num_drops;
+  EXPECT_THROW((void)encode(status), std::invalid_argument);
+  --status.sources[0].num_drops;
+  ++status.num_errors;
   EXPECT_THROW((void)encode(status), std::invalid_argument);
 }
 

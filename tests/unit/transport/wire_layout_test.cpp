@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "graspd/sealed_t.hpp"
 #include "tests/unit/transport/message_samples.hpp"
 
 namespace graspd {
@@ -14,6 +15,8 @@ TEST(WireLayout, FingerprintsAreTheGeneratedTypes) {
   EXPECT_EQ(kDepthImageFingerprint, static_cast<std::uint64_t>(depth_image_t::getHash()));
   EXPECT_EQ(kHandleListFingerprint, static_cast<std::uint64_t>(handle_list_t::getHash()));
   EXPECT_EQ(kStatusFingerprint, static_cast<std::uint64_t>(status_t::getHash()));
+  EXPECT_EQ(kSealedFingerprint, static_cast<std::uint64_t>(sealed_t::getHash()));
+  EXPECT_EQ(kControlFingerprint, static_cast<std::uint64_t>(control_t::getHash()));
 }
 
 TEST(WireLayout, FingerprintStartsEveryMessage) {
@@ -22,6 +25,7 @@ TEST(WireLayout, FingerprintStartsEveryMessage) {
   EXPECT_EQ(type_name(fingerprint(raw_bytes(small_depth_image())).value()), "depth_image_t");
   EXPECT_EQ(type_name(fingerprint(raw_bytes(random_handle_list(random))).value()), "handle_list_t");
   EXPECT_EQ(type_name(fingerprint(raw_bytes(random_status(random))).value()), "status_t");
+  EXPECT_EQ(type_name(fingerprint(raw_bytes(random_control(random))).value()), "control_t");
   EXPECT_EQ(type_name(0), "");
   EXPECT_EQ(fingerprint(Bytes(7)), std::nullopt);
 }

@@ -1,0 +1,168 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The graspd authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Writes the inputs that the fuzzers start from into tests/fuzz/corpus: small, valid, and each of another kind.
+
+What the fuzzers put in front themselves (fingerprints) is left out.
+"""
+import pathlib
+import struct
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent / "integration"))
+from lcm_types import load_types  # noqa: E402
+
+TYPES = load_types()
+ROOT = HERE.parents[1]
+
+
+def write(target, name, data):
+    folder = HERE / "corpus" / target
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / name).write_bytes(data if isinstance(data, bytes) else data.encode())
+
+
+def point_cloud(points, width=None):
+    fields = [TYPES["point_field_t"].encode(name=n, offset=4 * i, datatype=7, count=1)[8:] for i, n in enumerate("xyz")]
+    data = b"".join(struct.pack("<fff", *p) for p in points)
+    width = len(points) if width is None else width
+    head = struct.pack(">qq", 1, 2) + struct.pack(">i", 2) + b"f\0" + struct.pack(">ddd", 0, 0, 0)
+    head += struct.pack(">iii", width, len(points) // width if width else 0, 3) + b"".join(fields)
+    return head + struct.pack(">ii", 12, len(data)) + data
+
+
+def depth_image(depths, width, focal_length=200.0):
+    data = b"".join(struct.pack("<H", d) for d in depths)
+    head = struct.pack(">qq", 1, 2) + struct.pack(">i", 2) + b"f\0"
+    head += struct.pack(">ddddd", 0.001, focal_length, focal_length, width / 2, 12.0)
+    return head + struct.pack(">iii", width, len(depths) // width, len(data)) + data
+
+
+def patch(corner, columns, rows, step=0.003):
+    """A flat piece facing the sensor."""
+    return [(corner[0] + i * step, corner[1] + j * step, corner[2]) for j in range(rows) for i in range(columns)]
+
+
+def detect_seeds():
+    table, box = patch((-0.02, -0.02, 0.6), 12, 12), patch((-0.01, -0.01, 0.56), 7, 6)
+    clouds = {
+        "box_on_table": table + box,
+        "box_alone": box,
+        "line": [(0.001 * i, 0, 0.5) for i in range(60)],
+        "one_place": [(0.1, 0.2, 0.5)] * 60,
+        "huge_and_tiny": [(1e30, 0, 0.5), (0, -3e38, 0.5), (1e-45, -1e-45, 1e-40), (0, 0, 0.5)] * 4,
+        "nothing_finite": [(float("nan"), float("inf"), float("-inf"))] * 6,
+        "no_points": [],
+    }
+    for name, points in clouds.items():
+        write("detect", f"cloud_{name}", b"\0" + point_cloud(points))
+    depths = [0 if i % 16 == 2 else 560 if 5 <= i % 16 < 11 and 4 <= i // 16 < 10 else 600 for i in range(16 * 14)]
+    write("detect", "image_box_on_table", b"\1" + depth_image(depths, 16))
+    write("detect", "image_steps", b"\3" + depth_image([500 + 4 * (i // 16) for i in range(16 * 14)], 16))
+
+
+def config_seeds():
+    for gripper in sorted((ROOT / "config/grippers").glob("*.yaml")):
+        write("gripper_config", gripper.stem, gripper.read_bytes())
+    for sensor in sorted((ROOT / "config/sensors").glob("*.yaml")):
+        write("sensor_config", sensor.stem, sensor.read_bytes())
+    write("service_config", "two_sources", """lcm: {status_channel: S}
+workers: 3
+on_stop: drop
+limits: {max_points: 1000, max_sources: 4}
+detect:
+  workspace: {min_m: [-1, -1, 0], max_m: [1, 1, 2.5]}
+  downsample: {leaf_size_m: 4e-3}
+sources:
+  - name: a
+    channel: A_.*
+    policy: all
+    gripper: {aperture_m: 0.08, finger_width_m: 0.01, finger_thickness_m: 0.02, finger_length_m: 0.06, grasp_depth_m: 0.03, min_gap_m: 0.012}
+    sensor_pose: {frame_name: base, position_m: [0, 0, 1], rpy_rad: [3.14, 0, 1.57]}
+  - {name: b, channel: B, handles_channel: HB, detect: {ranking: {max_handles: 2}}}
+""")
+    write("service_config", "aliases", "a: &a {min_m: [0, 0, 0]}\ndetect: {workspace: *a}\n")
+    bomb = "a: &a [x, x]\n" + "".join(f"{c}: &{c} [*{p}, *{p}, *{p}, *{p}, *{p}, *{p}, *{p}, *{p}, *{p}]\n"
+                                      for p, c in zip("abcdefgh", "bcdefghi")) + "sources: *i\n"
+    for target in ("service_config", "gripper_config", "sensor_config"):
+        write(target, "alias_bomb", bomb)
+        write(target, "deep_flow", "a: " + "[" * 600)
+        write(target, "deep_map", "".join(" " * i + "a:\n" for i in range(80)))
+        write(target, "deep_list", "- " * 600)
+        write(target, "own_alias", "&a [*a]\n")
+        write(target, "not_a_number", "aperture_m: .nan\ndetect: {downsample: {leaf_size_m: 1e400}}\n")
+
+
+def pcd(kind, data, fields="x y z", sizes="4 4 4", types="F F F", width=2, height=1):
+    header = f"# .PCD v0.7\nVERSION 0.7\nFIELDS {fields}\nSIZE {sizes}\nTYPE {types}\nWIDTH {width}\nHEIGHT {height}\n"
+    return (header + f"VIEWPOINT 0 0 1 1 0 0 0\nPOINTS {width * height}\nDATA {kind}\n").encode() + data
+
+
+def pcd_seeds():
+    packed = struct.pack("<6f", 1, 2, 3, 4, 5, float("nan"))
+    write("pcd", "ascii", pcd("ascii", b"1 2 3\n4 nan 6\n"))
+    write("pcd", "binary", pcd("binary", packed))
+    literal = bytes([len(packed) - 1]) + packed
+    write("pcd", "compressed", pcd("binary_compressed", struct.pack("<II", len(literal), len(packed)) + literal))
+    repeated = bytes([3]) + bytes(4) + bytes([0x20 | 0xC0, 11, 3])  # 4 literal zeros, then 20 more from 4 back
+    write("pcd", "compressed_repeats", pcd("binary_compressed", struct.pack("<II", len(repeated), 24) + repeated))
+    write("pcd", "labelled", pcd("ascii", b"1 2 3 255 7\n4 5 6 1 10\n", "x y z rgb label", "4 4 8 4 2", "F F F F U"))
+    write("pcd", "lying_width", pcd("binary", packed, width=100000000))
+    write("pcd", "lying_compressed", pcd("binary_compressed", struct.pack("<II", 8, 0xFFFFFFF0) + bytes(8),
+                                         width=65535, height=1500))
+
+
+def ply(kind, data, count=2, more=""):
+    return (f"ply\nformat {kind} 1.0\nelement vertex {count}\nproperty float x\nproperty double y\nproperty float z\n"
+            f"property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uint label\n{more}end_header\n"
+            ).encode() + data
+
+
+def ply_seeds():
+    camera = ("element camera 1\nproperty float view_px\nproperty float view_py\nproperty float view_pz\n"
+              "property int viewportx\nproperty int viewporty\n")
+    write("ply", "ascii_camera", ply("ascii", b"1 2 3 4 5 6 7\nnan -inf 1e30 1 2 3 4\n0 0 1 1 2\n", more=camera))
+    for kind, order in (("binary_little_endian", "<"), ("binary_big_endian", ">")):
+        row = struct.pack(order + "fdfBBBI", 1, 2, 3, 4, 5, 6, 7)
+        write("ply", kind, ply(kind, row * 2))
+        write("ply", f"wrong_end_{kind}", ply("binary_big_endian" if order == "<" else "binary_little_endian", row * 2))
+    write("ply", "faces", b"ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_indices\n"
+          b"element vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n3 0 1 2\n1 2 3\n")
+    write("ply", "lying_list", b"ply\nformat binary_little_endian 1.0\nelement face 100000000\n"
+          b"property list uint double v\nend_header\n" + b"\xff" * 40)
+    write("ply", "lying_count", ply("binary_little_endian", bytes(31), count=100000000))
+
+
+def log_event(number, channel, data, channel_bytes=None, data_bytes=None):
+    sizes = (len(channel) if channel_bytes is None else channel_bytes, len(data) if data_bytes is None else data_bytes)
+    return struct.pack(">Iqqii", 0xEDA1DA01, number, 1700000000000000 + number, *sizes) + channel + data
+
+
+def log_seeds():
+    good = log_event(0, b"GRASPD_CLOUD", b"abc") + log_event(1, b"S", b"")
+    write("event_log", "two_events", good)
+    write("event_log", "cut_short", good[:-1] + b"")
+    write("event_log", "damaged_between", log_event(0, b"A", b"x") + b"\xed\xa1\xda\x01noise" + log_event(1, b"B", b"y"))
+    for name, sizes in (("lying_data", (1, 0x7FFFFFFF)), ("negative_data", (1, -1)), ("negative_channel", (-1, 1)),
+                        ("long_channel", (256, 0)), ("no_channel", (0, 1))):
+        write("event_log", name, log_event(0, b"A", b"x", *sizes) + log_event(1, b"B", b"y"))
+
+
+def seal_seeds():
+    for name, payload, size in (("empty", b"", 0), ("payload", b"payload", 7), ("lying_size", b"x", 0x7FFFFFFF),
+                                ("negative_size", b"x", -1)):
+        write("sealed", name, struct.pack(">qqqqi", 1, 2, 3, 1700000000000000, size) + payload + bytes(32))
+    write("sealed", "truncated", struct.pack(">qqqqi", 1, 2, 3, 4, 0) + bytes(31))
+    write("seal_keys", "one", "# of the arm\n" + "0123456789abcdef" * 4 + "\n")
+    write("seal_keys", "two", "ab" * 32 + "  # old\r\n\n" + "CD" * 32)
+    write("seal_keys", "short", "ab" * 31)
+
+
+def main():
+    for seeds in (detect_seeds, config_seeds, pcd_seeds, ply_seeds, log_seeds, seal_seeds):
+        seeds()
+
+
+if __name__ == "__main__":
+    main()

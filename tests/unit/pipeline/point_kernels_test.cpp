@@ -1,0 +1,194 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Both forms of each kernel against the definition, and against each other to the bit.
+#include "service/pipeline/point_kernels.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <random>
+#include <vector>
+
+namespace graspd {
+namespace {
+
+constexpr std::uint32_t kUntouched = 0xdeadbeef;
+
+struct Form {
+  const char* name;
+  const PointKernels* kernels;
+};
+
+/// The portable one, and the one for AVX2 where this processor has it.
+std::vector<Form> forms() {
+  std::vector<Form> all{{"portable", &portable_kernels()}};
+  if (avx2_kernels()) all.push_back({"avx2", avx2_kernels()});
+  return all;
+}
+
+struct Points {
+  std::vector<float> x, y, z;
+  std::vector<std::uint32_t> index;
+  std::size_t size;
+
+  explicit Points(std::size_t n, std::uint32_t seed = 1)
+      : x(n + kPointPadding), y(x), z(x), index(n + kPointPadding), size(n) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> unit(-1, 1);
+    // The padding holds points too, all of them inside: whoever counts it is found out.
+    for (std::vector<float>* v : {&x, &y, &z})
+      for (std::size_t i = 0; i < n; ++i) (*v)[i] = unit(random);
+    std::iota(index.begin(), index.end(), 1000u);
+  }
+  [[nodiscard]] PointRange range() const { return {x.data(), y.data(), z.data(), index.data(), size}; }
+};
+
+BoxTest tilted_box() {
+  BoxTest box{};
+  const float c = std::cos(0.4f), s = std::sin(0.4f);
+  const float rows[3][3] = {{c, s, 0}, {-s, c, 0}, {0, 0, 1}};
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) box.to_local[i][j] = rows[i][j];
+    box.shift[i] = 0.1f * static_cast<float>(i);
+    box.min[i] = -0.5f;
+    box.max[i] = 0.4f + 0.1f * static_cast<float>(i);
+  }
+  return box;
+}
+
+struct Kept {
+  std::vector<float> a, f, z;
+  std::vector<std::uint32_t> index;
+  bool operator==(const Kept&) const = default;
+};
+
+Kept keep_inside(const PointKernels& kernels, const BoxTest& box, const Points& points) {
+  const std::size_t room = points.size + kPointPadding;
+  Kept kept{std::vector<float>(room), std::vector<float>(room), std::vector<float>(room),
+            std::vector<std::uint32_t>(room + 1, kUntouched)};
+  const std::size_t n = kernels.keep_inside(
+      box, points.range(), {kept.a.data(), kept.f.data(), kept.z.data(), kept.index.data()});
+  EXPECT_EQ(kept.index.back(), kUntouched) << "writes beyond the room that is asked for";
+  for (std::vector<float>* v : {&kept.a, &kept.f, &kept.z}) v->resize(n);
+  kept.index.resize(n);
+  return kept;
+}
+
+TEST(PointKernels, KeepWhatIsInTheBox) {
+  const BoxTest box = tilted_box();
+  for (const std::size_t size : {0, 1, 7, 8, 9, 31, 32, 33, 1000}) {
+    const Points points(size);
+    const Kept expected = keep_inside(portable_kernels(), box, points);
+    std::size_t k = 0;
+    for (std::size_t i = 0; i < size; ++i) {
+      double margin = 1;
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto& row = box.to_local[axis];
+        const double local = double{row[0]} * double{points.x[i]} + double{row[1]} * double{points.y[i]} +
+                             double{row[2]} * double{points.z[i]} + double{box.shift[axis]};
+        margin = std::min({margin, local - double{box.min[axis]}, double{box.max[axis]} - local});
+      }
+      ASSERT_GT(std::abs(margin), 1e-6) << "too near to a face to tell; take another seed";
+      if (margin < 0) continue;
+      ASSERT_LT(k, expected.index.size());
+      EXPECT_EQ(expected.index[k++], points.index[i]);
+    }
+    EXPECT_EQ(k, expected.index.size());
+    for (const Form& form : forms()) {
+      EXPECT_EQ(keep_inside(*form.kernels, box, points), expected) << form.name << " " << size;
+      EXPECT_EQ(form.kernels->count_inside(box, points.range()), k) << form.name << " " << size;
+    }
+  }
+}
+
+TEST(PointKernels, KeepWhatIsNear) {
+  for (const std::size_t size : {0, 1, 8, 15, 500}) {
+    const Points points(size, 2);
+    const float p[3] = {0.1f, -0.2f, 0.3f};
+    std::vector<std::uint32_t> expected;
+    for (std::size_t i = 0; i < size; ++i) {
+      const double d = std::hypot(double{points.x[i]} - 0.1, double{points.y[i]} + 0.2, double{points.z[i]} - 0.3);
+      if (d * d <= 0.5) expected.push_back(points.index[i]);
+    }
+    for (const Form& form : forms()) {
+      std::vector<std::uint32_t> near(size + kPointPadding + 1, kUntouched);
+      const std::size_t n = form.kernels->keep_near(p, 0.5f, points.range(), near.data());
+      EXPECT_EQ(near.back(), kUntouched);
+      near.resize(n);
+      EXPECT_EQ(near, expected) << form.name << " " << size;
+    }
+  }
+}
+
+TEST(PointKernels, NumberCellsAlsoBelowZero) {
+  const CellGrid grid{100, {-200, -200, -200}, 401, 401 * 401};
+  for (const std::size_t size : {1, 8, 19, 300}) {
+    Points points(size, 3);
+    points.x[0] = -0.05f;  // a cell's face: floor, not truncation
+    for (const Form& form : forms()) {
+      std::vector<std::uint32_t> cells(size);
+      form.kernels->number_cells(grid, points.x.data(), points.y.data(), points.z.data(), size, cells.data());
+      for (std::size_t i = 0; i < size; ++i) {
+        const auto cell = [](float v) { return static_cast<std::uint32_t>(std::floor(v * 100.0f) + 200); };
+        EXPECT_EQ(cells[i], cell(points.x[i]) + 401 * cell(points.y[i]) + 401 * 401 * cell(points.z[i]))
+            << form.name << " " << i;
+      }
+    }
+  }
+}
+
+TEST(PointKernels, BoundsPassOverNaN) {
+  for (const std::size_t size : {1, 8, 13, 100}) {
+    Points points(size, 4);
+    for (std::size_t i = 0; i < size; i += 3) points.x[i] = std::numeric_limits<float>::quiet_NaN();
+    float expected_low = 0.1f, expected_high = 0.1f;
+    for (std::size_t i = 0; i < size; ++i) {
+      if (std::isnan(points.x[i])) continue;
+      expected_low = std::min(expected_low, points.x[i]);
+      expected_high = std::max(expected_high, points.x[i]);
+    }
+    for (const Form& form : forms()) {
+      float low = 0.1f, high = 0.1f;
+      form.kernels->extend_bounds(points.x.data(), size, low, high);
+      EXPECT_EQ(low, expected_low) << form.name << " " << size;
+      EXPECT_EQ(high, expected_high) << form.name << " " << size;
+    }
+  }
+}
+
+TEST(PointKernels, TagBandsAndKeepDepths) {
+  constexpr std::int32_t kOwn = 3, kLeftOut = -2;
+  for (const std::size_t size : {0, 5, 8, 21, 400}) {
+    Points points(size, 5);
+    std::vector<std::int32_t> object_of_point(size + 1000 + kPointPadding);
+    for (std::size_t i = 0; i < object_of_point.size(); ++i)
+      object_of_point[i] = static_cast<std::int32_t>(i % 7) - 2;
+    const BandPoints band{points.x.data(), points.y.data(), points.index.data(), size};
+    const BandTags tags{object_of_point.data(), kOwn, kLeftOut, -0.8f, 0.01f, 150};
+    for (const Form& form : forms()) {
+      std::vector<std::int32_t> own(size + kPointPadding, -9), bins(own);
+      form.kernels->tag_band(tags, band, own.data(), bins.data());
+      std::vector<float> expected;
+      for (std::size_t k = 0; k < size; ++k) {
+        const std::int32_t object = object_of_point[points.index[k]];
+        EXPECT_EQ(own[k], object == kOwn ? 1 : 0);
+        const auto bin = static_cast<std::int32_t>(std::floor((points.x[k] + 0.8f) / 0.01f));
+        const bool has_none = object == kLeftOut || bin < 0 || bin >= 150;
+        EXPECT_EQ(has_none ? -1 : bin, std::max(bins[k], -1)) << form.name << " " << points.x[k];
+        if (object == kOwn && points.x[k] >= -0.5f && points.x[k] <= 0.25f) expected.push_back(points.y[k]);
+      }
+      std::vector<float> depths(size + kPointPadding);
+      depths.resize(form.kernels->keep_depths(band, own.data(), -0.5f, 0.25f, depths.data()));
+      EXPECT_EQ(depths, expected) << form.name << " " << size;
+    }
+  }
+}
+
+TEST(PointKernels, TheFastestFormIsChosen) {
+  EXPECT_EQ(&point_kernels(), avx2_kernels() ? avx2_kernels() : &portable_kernels());
+}
+
+}  // namespace
+}  // namespace graspd
