@@ -27,6 +27,7 @@ constexpr std::chrono::seconds kPatience{5};
   dup2(nothing, STDIN_FILENO);
   dup2(nothing, STDOUT_FILENO);
   dup2(log, STDERR_FILENO);
+  close_range(STDERR_FILENO + 1, ~0U, 0);  // the benchmark's own sockets
   execv(arguments[0], arguments.data());
   _exit(127);
 }

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <exception>
 #include <mutex>
 #include <stdexcept>
 #include <thread>
@@ -157,12 +158,20 @@ class Session {
   std::int64_t send(std::int64_t frames, double rate_hz) {
     std::atomic<std::int64_t> sent = 0;
     std::atomic<bool> done = false;
-    std::thread camera([&] {
-      for (Pacer pacer(rate_hz); sent < frames && pacer.next(); ++sent) publish();
-      done = true;
-    });
-    while (!done) answers_.wait();
-    camera.join();
+    std::exception_ptr error;
+    {
+      const std::jthread camera([&](const std::stop_token& stop) {
+        try {
+          for (Pacer pacer(rate_hz); sent < frames && !stop.stop_requested() && pacer.next(); ++sent)
+            publish();
+        } catch (...) {
+          error = std::current_exception();
+        }
+        done = true;
+      });
+      while (!done) answers_.wait();
+    }
+    if (error) std::rethrow_exception(error);
     await_answers(sent);
     return sent;
   }
