@@ -50,8 +50,12 @@ FrameRun run_frame(const std::vector<std::byte>& message, const DetectConfig& co
   run.decode_ms = part.lap_ms();
   run.detection = timed_detection(frame.cloud, config, arena);
   (void)part.lap_ms();
-  HandleListHeader header{frame.utime, frame.seq, "CAMERA", frame.frame_name,
-                          0,           "",        0,        run.detection.stages_ms};
+  HandleListHeader header;
+  header.utime = frame.utime;
+  header.seq = frame.seq;
+  header.source_channel = "CAMERA";
+  header.frame_name = frame.frame_name;
+  header.stages_ms = run.detection.stages_ms;
   header.status = wire_status(run.detection.detection.status);
   encode(make_handle_list(header, Gripper{}, run.detection.detection, Eigen::Isometry3f::Identity()), answer);
   run.encode_ms = part.lap_ms();

@@ -27,6 +27,7 @@ constexpr std::chrono::seconds kPatience{5};
   dup2(nothing, STDIN_FILENO);
   dup2(nothing, STDOUT_FILENO);
   dup2(log, STDERR_FILENO);
+  close_range(STDERR_FILENO + 1, ~0U, 0);  // the benchmark's own sockets
   execv(arguments[0], arguments.data());
   _exit(127);
 }
@@ -36,6 +37,7 @@ constexpr std::chrono::seconds kPatience{5};
 DaemonProcess::DaemonProcess(const std::vector<std::string>& arguments) {
   std::vector<std::string> copies = arguments;
   std::vector<char*> pointers;
+  pointers.reserve(copies.size() + 1);
   for (std::string& copy : copies) pointers.push_back(copy.data());
   pointers.push_back(nullptr);
   if (access(pointers[0], X_OK) != 0)

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <exception>
 #include <mutex>
 #include <stdexcept>
 #include <thread>
@@ -75,12 +76,13 @@ class Answers {
   void wait() { (void)bus_.wait(milliseconds(20)); }
   [[nodiscard]] std::int64_t count() const { return count_; }
   [[nodiscard]] std::int64_t dropped() const { return dropped_; }
+  [[nodiscard]] std::int64_t degraded() const { return degraded_; }
   [[nodiscard]] const Samples& latency_ms() const { return latency_ms_; }
   /// Counts answers to frames from this one on, and no others.
   void count_from(std::int64_t seq) {
     first_seq_ = seq;
     latency_ms_ = {};
-    count_ = dropped_ = 0;
+    count_ = dropped_ = degraded_ = 0;
   }
 
  private:
@@ -90,6 +92,7 @@ class Answers {
     if (!list || list->seq < first_seq_) return;
     ++count_;
     if (list->status == handle_list_t::OVERLOADED) ++dropped_;
+    if (list->degraded != 0) ++degraded_;
     if (!is_processed(*list)) return;
     const std::lock_guard lock(mutex_);
     const auto seq = static_cast<std::size_t>(list->seq);
@@ -100,7 +103,7 @@ class Answers {
   LcmBus bus_;
   std::mutex mutex_;
   std::vector<Clock::time_point> sent_;  // by seq
-  std::atomic<std::int64_t> count_ = 0, dropped_ = 0;
+  std::atomic<std::int64_t> count_ = 0, dropped_ = 0, degraded_ = 0;
   std::int64_t first_seq_ = 0;
   Samples latency_ms_;  // of the listening thread
 };
@@ -155,12 +158,20 @@ class Session {
   std::int64_t send(std::int64_t frames, double rate_hz) {
     std::atomic<std::int64_t> sent = 0;
     std::atomic<bool> done = false;
-    std::thread camera([&] {
-      for (Pacer pacer(rate_hz); sent < frames && pacer.next(); ++sent) publish();
-      done = true;
-    });
-    while (!done) answers_.wait();
-    camera.join();
+    std::exception_ptr error;
+    {
+      const std::jthread camera([&](const std::stop_token& stop) {
+        try {
+          for (Pacer pacer(rate_hz); sent < frames && !stop.stop_requested() && pacer.next(); ++sent)
+            publish();
+        } catch (...) {
+          error = std::current_exception();
+        }
+        done = true;
+      });
+      while (!done) answers_.wait();
+    }
+    if (error) std::rethrow_exception(error);
     await_answers(sent);
     return sent;
   }
@@ -185,6 +196,7 @@ BenchResult Session::run(const BenchOptions& options, double rate_hz) {
   result.figures = {{"sent", static_cast<double>(sent)},
                     {"answers", static_cast<double>(answers_.count())},
                     {"dropped", static_cast<double>(answers_.dropped())},
+                    {"degraded", static_cast<double>(answers_.degraded())},
                     {"lost", static_cast<double>(sent - answers_.count())},
                     {"message_bytes", static_cast<double>(camera_.message(next_seq_).size())},
                     {"daemon_cores", (daemon_.cpu_seconds() - cpu_before) / seconds},

@@ -126,6 +126,7 @@ std::string drawn(const PlotLine& line, const Axes& axes) {
 /// Names at the lines' right ends, apart from each other.
 std::string labels(const std::vector<PlotLine>& lines, const Axes& axes) {
   std::vector<double> ends;
+  ends.reserve(lines.size());
   for (const PlotLine& line : lines) ends.push_back(axes.y.at(line.points.back().second));
   const std::vector<double> places = spread(ends, kLabelGap);
   std::string text;

@@ -66,6 +66,13 @@ void keep_near(const PointKernels& kernels, Block& b) {
   benchmark::DoNotOptimize(kernels.keep_near(kCenter, 0.05f * 0.05f, b.points(), b.out.data()));
 }
 
+void sum_moments(const PointKernels& kernels, Block& b) {
+  constexpr float kCenter[3] = {0.01f, 0, -0.02f};
+  const Moments sums =
+      kernels.sum_moments(kCenter, b.x.data(), b.y.data(), b.z.data(), b.index.data(), kNumPoints);
+  benchmark::DoNotOptimize(sums.zz);
+}
+
 void extend_bounds(const PointKernels& kernels, Block& b) {
   float low = INFINITY, high = -INFINITY;
   kernels.extend_bounds(b.x.data(), kNumPoints, low, high);
@@ -114,6 +121,7 @@ int main(int argc, char** argv) {
   add("keep_inside", keep_inside);
   add("count_inside", count_inside);
   add("keep_near", keep_near);
+  add("sum_moments", sum_moments);
   add("extend_bounds", extend_bounds);
   add("number_cells", number_cells);
   add("tag_band", tag_band);
