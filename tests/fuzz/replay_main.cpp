@@ -12,7 +12,7 @@
 
 namespace {
 
-constexpr std::size_t kMaxPlaces = 512;
+constexpr std::size_t kMaxPlaces = 160;
 
 void replay(std::vector<std::uint8_t> bytes) {
   const std::size_t stride = std::max<std::size_t>(1, bytes.size() / kMaxPlaces);
