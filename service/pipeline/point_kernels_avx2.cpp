@@ -176,10 +176,12 @@ GRASPD_AVX2 void extend_bounds(const float* v, std::size_t n, float& low, float&
     lows = _mm256_min_ps(c, lows);  // the second operand where one is NaN
     highs = _mm256_max_ps(c, highs);
   }
-  alignas(32) float lanes[16];
+  alignas(32) float lanes[8];
+  float unused = 0;
   _mm256_store_ps(lanes, lows);
-  _mm256_store_ps(lanes + 8, highs);
-  portable_kernels().extend_bounds(lanes, 16, low, high);
+  portable_kernels().extend_bounds(lanes, 8, low, unused);
+  _mm256_store_ps(lanes, highs);
+  portable_kernels().extend_bounds(lanes, 8, unused, high);
   portable_kernels().extend_bounds(v + i, n - i, low, high);
 }
 

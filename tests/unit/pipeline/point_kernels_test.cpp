@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -154,6 +155,11 @@ TEST(PointKernels, BoundsPassOverNaN) {
       form.kernels->extend_bounds(points.x.data(), size, low, high);
       EXPECT_EQ(low, expected_low) << form.name << " " << size;
       EXPECT_EQ(high, expected_high) << form.name << " " << size;
+      low = 5;
+      high = -5;
+      form.kernels->extend_bounds(points.y.data(), size, low, high);
+      EXPECT_EQ(low, *std::min_element(points.y.begin(), points.y.begin() + static_cast<std::ptrdiff_t>(size)));
+      EXPECT_EQ(high, *std::max_element(points.y.begin(), points.y.begin() + static_cast<std::ptrdiff_t>(size)));
     }
   }
 }
