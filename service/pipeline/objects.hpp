@@ -27,8 +27,7 @@ struct ObjectsConfig {
   }
 };
 
-inline constexpr std::int32_t kNoObject = -1;
-inline constexpr std::int32_t kSupportObject = -2;  ///< of the points of the support
+inline constexpr std::int32_t kSupportObject = -2;  ///< of the points of the support, which are no object's
 
 struct Objects {
   int num_objects = 0;

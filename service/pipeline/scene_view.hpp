@@ -19,7 +19,7 @@ namespace graspd {
 struct SceneView {
   const PointCloud& cloud;
   const BoxQuery& query;
-  const std::vector<std::int32_t>& object;  ///< object of each point, kSupportObject, kNoObject
+  const std::vector<std::int32_t>& object;  ///< object of each point, kSupportObject, or -1
   const Normals& normals;                   ///< of the voxels
   const std::vector<std::uint32_t>* voxel;  ///< voxel of each point; null: the points are the voxels
   const std::optional<Support>& support;
