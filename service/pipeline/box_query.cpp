@@ -14,16 +14,24 @@ constexpr int kBeyond = std::numeric_limits<int>::max();  // layer of the row af
 
 }  // namespace
 
+void LocalPoints::show(std::size_t n) {
+  a = {a_.data(), n};
+  f = {f_.data(), n};
+  z = {z_.data(), n};
+  index = {index_.data(), n};
+}
+
 void LocalPoints::add_inside(const BoxTest& box, const PointRange& points) {
-  if (const std::size_t most = size_ + points.size + kPointPadding; a.size() < most) {
-    const std::size_t room = std::max(most, 2 * a.size());
-    a.resize(room);
-    f.resize(room);
-    z.resize(room);
-    index.resize(room);
+  const std::size_t n = size();
+  if (const std::size_t most = n + points.size + kPointPadding; a_.size() < most) {
+    const std::size_t room = std::max(most, 2 * a_.size());
+    a_.resize(room);
+    f_.resize(room);
+    z_.resize(room);
+    index_.resize(room);
   }
-  size_ += point_kernels().keep_inside(
-      box, points, {a.data() + size_, f.data() + size_, z.data() + size_, index.data() + size_});
+  show(n + point_kernels().keep_inside(box, points,
+                                       {a_.data() + n, f_.data() + n, z_.data() + n, index_.data() + n}));
 }
 
 BoxTest box_test(const Eigen::Vector3f& origin, const Eigen::Matrix3f& rotation, const Eigen::Vector3f& min,

@@ -5,6 +5,7 @@
 #pragma once
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "service/pipeline/cell_order.hpp"
@@ -14,16 +15,24 @@ namespace graspd {
 
 /// Points in gripper coordinates [m]: a along the major axis, f along the closing axis, z along the approach.
 /// Kept from query to query, so that its memory is.
-struct LocalPoints {
-  std::vector<float> a, f, z;        ///< the first size() of them
-  std::vector<std::uint32_t> index;  ///< into the cloud; the same
+class LocalPoints {
+ public:
+  std::span<float> a, f, z;
+  std::span<std::uint32_t> index;  ///< into the cloud
 
-  [[nodiscard]] std::size_t size() const { return size_; }
-  void clear() { size_ = 0; }
+  LocalPoints() = default;
+  LocalPoints(LocalPoints&&) = default;
+  LocalPoints& operator=(LocalPoints&&) = default;
+
+  [[nodiscard]] std::size_t size() const { return a.size(); }
+  void clear() { show(0); }
   void add_inside(const BoxTest& box, const PointRange& points);
 
  private:
-  std::size_t size_ = 0;
+  void show(std::size_t n);
+
+  std::vector<float> a_, f_, z_;  // with room for what the kernels write beyond the points
+  std::vector<std::uint32_t> index_;
 };
 
 /// Points whose coordinates rotation^T (p - origin) lie in [min, max] are inside.

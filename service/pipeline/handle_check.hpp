@@ -101,7 +101,7 @@ struct CheckBuffers {
   std::vector<std::int32_t> bins;  ///< and its bin of the profile; negative: none
   std::vector<std::uint32_t> between;
   std::vector<int> own_profile, all_profile;
-  std::vector<float> depths, widths;  ///< room for one value a point
+  std::vector<float> depths, widths;  ///< room for one value a point and the kernels' padding
   std::vector<Eigen::Vector2f> profile;
 };
 

@@ -184,11 +184,11 @@ void shift(LocalPoints& local, float f, float z) {
 void describe_points(const SceneView& scene, const Candidate& candidate, float reach_m,
                      CheckBuffers& buffers) {
   const LocalPoints& local = buffers.local;
-  if (buffers.own.size() < local.size()) {
-    buffers.own.resize(local.a.size());
-    buffers.bins.resize(local.a.size());
-    buffers.depths.resize(local.a.size());
-    buffers.widths.resize(local.a.size());
+  if (const std::size_t room = local.size() + kPointPadding; buffers.own.size() < room) {
+    buffers.own.resize(2 * room);
+    buffers.bins.resize(2 * room);
+    buffers.depths.resize(2 * room);
+    buffers.widths.resize(2 * room);
   }
   // Where the support is in the way, the fingers go less deep: it does not widen the patch.
   const BandTags tags{scene.object.data(),       candidate.object, kSupportObject, -reach_m, kBin,

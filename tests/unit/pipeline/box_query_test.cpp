@@ -39,10 +39,9 @@ void expect_brute_force(const PointCloud& cloud, const BoxQuery& query, const Qu
   constexpr double kRounding = 1e-6;
   LocalPoints found;
   query.find(box.origin, box.rotation, box.min, box.max, found);
-  ASSERT_GE(found.a.size(), found.size());
-  ASSERT_GE(found.f.size(), found.size());
-  ASSERT_GE(found.z.size(), found.size());
-  ASSERT_GE(found.index.size(), found.size());
+  ASSERT_EQ(found.f.size(), found.size());
+  ASSERT_EQ(found.z.size(), found.size());
+  ASSERT_EQ(found.index.size(), found.size());
   std::map<std::uint32_t, std::size_t> position;
   for (std::size_t k = 0; k < found.size(); ++k)
     EXPECT_TRUE(position.emplace(found.index[k], k).second) << "point " << found.index[k] << " twice";
