@@ -47,6 +47,34 @@ TEST(FrameQueue, NoSourceStarvesBesideFullOnes) {
   for (const int turns : served) EXPECT_EQ(turns, 200);
 }
 
+TEST(FrameQueue, SourcesAtDifferentRatesShareFairly) {
+  // Four cameras that send every 3, 6, 12 and 30 ticks, one worker that needs 4 ticks a frame: room for a
+  // quarter of a frame a tick. The slowest asks for less than its share and gets all of it; the others share
+  // the rest.
+  constexpr std::array<int, 4> kPeriods{3, 6, 12, 30};
+  constexpr int kTicks = 60000, kWork = 4;
+  FrameQueue<int> queue;
+  for (std::size_t s = 0; s < kPeriods.size(); ++s) queue.add_source(1, 1);
+  std::array<int, 4> sent{}, served{};
+  int waiting = 0, free_at = 0;
+  for (int tick = 0; tick < kTicks; ++tick) {
+    for (std::size_t s = 0; s < kPeriods.size(); ++s) {
+      if (tick % kPeriods[s] != 0) continue;
+      ++sent[s];
+      if (!queue.push(s, tick)) ++waiting;
+    }
+    if (tick < free_at || waiting == 0) continue;
+    const auto taken = queue.take();
+    --waiting;
+    ++served[taken->source];
+    queue.done(taken->source);
+    free_at = tick + kWork;
+  }
+  EXPECT_GE(served[3], sent[3] - 1);
+  const double share = (double{kTicks} / kWork - served[3]) / 3;
+  for (std::size_t s = 0; s < 3; ++s) EXPECT_NEAR(served[s], share, 0.05 * share) << "source " << s;
+}
+
 TEST(FrameQueue, OneInFlightOfASourceWithTheLatestPolicy) {
   FrameQueue<int> queue;
   const std::size_t latest = queue.add_source(1, 1);
