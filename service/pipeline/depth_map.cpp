@@ -109,39 +109,25 @@ DepthMap::DepthMap(const PointCloud& cloud)
   close_gaps(std::max(width_, height_) / 10);
 }
 
-bool DepthMap::project(const Eigen::Vector3f& p, int& u, int& v, float& depth) const {
-  const Eigen::Vector3f q = to_view_ * (p - viewpoint_);
-  if (!(q.z() > 0)) return false;
-  const float fu = focal_ * q.x() / q.z() + center_u_ + 0.5f, fv = focal_ * q.y() / q.z() + center_v_ + 0.5f;
-  if (!(fu >= 0 && fv >= 0 && fu < static_cast<float>(width_) && fv < static_cast<float>(height_)))
-    return false;
-  u = static_cast<int>(fu);
-  v = static_cast<int>(fv);
-  depth = q.z();
-  return true;
-}
-
 void DepthMap::splat(const PointCloud& cloud) {
   const auto size = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
   depth_.assign(size, 0);
   point_.assign(size, kFree);
-  const auto width = static_cast<float>(width_), height = static_cast<float>(height_);
-  float fu[kBlock], fv[kBlock];
+  float u[kBlock], v[kBlock];
   for (std::size_t from = 0; from < cloud.size(); from += kBlock) {
     const ViewBlock block(to_view_, viewpoint_, cloud, from);
     for (std::size_t k = 0; k < block.size; ++k) {
-      fu[k] = focal_ * block.x[k] / block.z[k] + center_u_ + 0.5f;
-      fv[k] = focal_ * block.y[k] / block.z[k] + center_v_ + 0.5f;
+      u[k] = column(block.x[k], block.z[k]);
+      v[k] = row(block.y[k], block.z[k]);
     }
     for (std::size_t k = 0; k < block.size; ++k) {
       const float depth = block.z[k];
-      if (!(depth > 0 && fu[k] >= 0 && fv[k] >= 0 && fu[k] < width && fv[k] < height)) continue;
-      const std::size_t at =
-          static_cast<std::size_t>(static_cast<int>(fv[k])) * static_cast<std::size_t>(width_) +
-          static_cast<std::size_t>(static_cast<int>(fu[k]));
-      if (depth_[at] != 0 && depth_[at] <= depth) continue;
-      depth_[at] = depth;
-      point_[at] = static_cast<std::int32_t>(from + k);
+      const std::int64_t at = pixel(u[k], v[k], depth);
+      if (at < 0) continue;
+      float& nearest = depth_[static_cast<std::size_t>(at)];
+      if (nearest != 0 && nearest <= depth) continue;
+      nearest = depth;
+      point_[static_cast<std::size_t>(at)] = static_cast<std::int32_t>(from + k);
     }
   }
 }
@@ -172,35 +158,32 @@ float DepthMap::ray_area(const Eigen::Vector3f& p) const {
   return depth * depth / (focal_ * focal_);
 }
 
+std::int32_t DepthMap::hider_at(std::int64_t pixel, float depth, float margin_m) const {
+  if (pixel < 0) return kFree;
+  const auto at = static_cast<std::size_t>(pixel);
+  return depth_[at] > 0 && depth_[at] < depth - margin_m ? point_[at] : kFree;
+}
+
 std::int32_t DepthMap::hider(const Eigen::Vector3f& p, float margin_m) const {
-  int u = 0, v = 0;
-  float depth = 0;
-  if (depth_.empty() || !project(p, u, v, depth)) return kFree;
-  const std::size_t k =
-      static_cast<std::size_t>(v) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(u);
-  return depth_[k] > 0 && depth_[k] < depth - margin_m ? point_[k] : kFree;
+  if (depth_.empty()) return kFree;
+  const Eigen::Vector3f q = to_view_ * (p - viewpoint_);
+  return hider_at(pixel(column(q.x(), q.z()), row(q.y(), q.z()), q.z()), q.z(), margin_m);
 }
 
 void DepthMap::find_hiders(const Probes& places, float margin_m, std::int32_t (&hiders)[kProbes]) const {
   std::fill_n(hiders, kProbes, kFree);
   if (depth_.empty()) return;
   const Eigen::Vector3f right = to_view_.row(0), down = to_view_.row(1), forward = to_view_.row(2);
-  const auto width = static_cast<float>(width_), height = static_cast<float>(height_);
-  float fu[kProbes], fv[kProbes], depth[kProbes];
+  float u[kProbes], v[kProbes], depth[kProbes];
   for (std::size_t k = 0; k < kProbes; ++k) {
     const float dx = places.x[k] - viewpoint_.x(), dy = places.y[k] - viewpoint_.y(),
                 dz = places.z[k] - viewpoint_.z();
     depth[k] = forward[0] * dx + forward[1] * dy + forward[2] * dz;
-    fu[k] = focal_ * (right[0] * dx + right[1] * dy + right[2] * dz) / depth[k] + center_u_ + 0.5f;
-    fv[k] = focal_ * (down[0] * dx + down[1] * dy + down[2] * dz) / depth[k] + center_v_ + 0.5f;
+    u[k] = column(right[0] * dx + right[1] * dy + right[2] * dz, depth[k]);
+    v[k] = row(down[0] * dx + down[1] * dy + down[2] * dz, depth[k]);
   }
-  for (std::size_t k = 0; k < kProbes; ++k) {
-    if (!(depth[k] > 0 && fu[k] >= 0 && fv[k] >= 0 && fu[k] < width && fv[k] < height)) continue;
-    const std::size_t at =
-        static_cast<std::size_t>(static_cast<int>(fv[k])) * static_cast<std::size_t>(width_) +
-        static_cast<std::size_t>(static_cast<int>(fu[k]));
-    if (depth_[at] > 0 && depth_[at] < depth[k] - margin_m) hiders[k] = point_[at];
-  }
+  for (std::size_t k = 0; k < kProbes; ++k)
+    hiders[k] = hider_at(pixel(u[k], v[k], depth[k]), depth[k], margin_m);
 }
 
 }  // namespace graspd

@@ -35,7 +35,16 @@ class DepthMap {
  private:
   void splat(const PointCloud& cloud);
   void close_gaps(int max_gap);
-  [[nodiscard]] bool project(const Eigen::Vector3f& p, int& u, int& v, float& depth) const;
+  /// Where a point with these coordinates in the axes of the view falls on the image [pixels].
+  [[nodiscard]] float column(float x, float z) const { return focal_ * x / z + center_u_ + 0.5f; }
+  [[nodiscard]] float row(float y, float z) const { return focal_ * y / z + center_v_ + 0.5f; }
+  /// Position of that pixel in the image; negative outside of it and behind the sensor.
+  [[nodiscard]] std::int64_t pixel(float column, float row, float depth) const {
+    const bool is_inside = depth > 0 && column >= 0 && row >= 0 && column < static_cast<float>(width_) &&
+                           row < static_cast<float>(height_);
+    return is_inside ? std::int64_t{static_cast<int>(row)} * width_ + static_cast<int>(column) : -1;
+  }
+  [[nodiscard]] std::int32_t hider_at(std::int64_t pixel, float depth, float margin_m) const;
 
   Eigen::Vector3f viewpoint_;
   Eigen::Matrix3f to_view_;  // rows: right, down, forward
