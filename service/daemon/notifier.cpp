@@ -13,6 +13,8 @@
 #include <cstdlib>
 #include <ctime>
 
+#include "service/transport/file_descriptor.hpp"
+
 namespace graspd {
 namespace {
 
@@ -68,13 +70,12 @@ void Notifier::send(std::string_view state) const {
   address.sun_family = AF_UNIX;
   std::copy(socket_.begin(), socket_.end(), address.sun_path);
   if (socket_.front() == '@') address.sun_path[0] = '\0';  // a name that is no file
-  const int fd = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-  if (fd < 0) return;
+  const FileDescriptor fd(socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  if (fd.get() < 0) return;
   const auto length = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + socket_.size());
   // Lost when systemd does not take it: the next one tells the same.
-  (void)sendto(fd, state.data(), state.size(), MSG_NOSIGNAL, reinterpret_cast<const sockaddr*>(&address),
-               length);
-  close(fd);
+  (void)sendto(fd.get(), state.data(), state.size(), MSG_NOSIGNAL,
+               reinterpret_cast<const sockaddr*>(&address), length);
 }
 
 }  // namespace graspd

@@ -4,12 +4,13 @@
 
 #include <arpa/inet.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cstdlib>
 #include <stdexcept>
+
+#include "service/transport/file_descriptor.hpp"
 
 namespace graspd {
 namespace {
@@ -44,13 +45,13 @@ std::map<std::string, std::string> parse_options(const std::string& text) {
 /// What the kernel makes of a wish for a receive buffer; it reports twice that. 0 when it cannot be found
 /// out.
 int granted_receive_buffer(int wanted) {
-  const int fd = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-  if (fd < 0) return 0;
+  const FileDescriptor fd(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+  if (fd.get() < 0) return 0;
   int granted = 0;
   socklen_t length = sizeof(granted);
-  const bool known = (wanted == 0 || setsockopt(fd, SOL_SOCKET, SO_RCVBUF, &wanted, sizeof(wanted)) == 0) &&
-                     getsockopt(fd, SOL_SOCKET, SO_RCVBUF, &granted, &length) == 0;
-  close(fd);
+  const bool known =
+      (wanted == 0 || setsockopt(fd.get(), SOL_SOCKET, SO_RCVBUF, &wanted, sizeof(wanted)) == 0) &&
+      getsockopt(fd.get(), SOL_SOCKET, SO_RCVBUF, &granted, &length) == 0;
   return known ? granted / 2 : 0;
 }
 

@@ -6,7 +6,6 @@
 #include <netinet/in.h>
 #include <poll.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include <array>
 #include <cerrno>
@@ -17,6 +16,7 @@
 #include <system_error>
 
 #include "service/transport/bus.hpp"
+#include "service/transport/file_descriptor.hpp"
 #include "service/transport/lcm_url.hpp"
 
 namespace graspd {
@@ -30,19 +30,9 @@ constexpr std::string_view kRouteRemedy = "ip link set lo up && ip route add 239
 /// A short LCM message: magic, sequence number, channel, payload.
 constexpr std::string_view kSelfTest{"LC02\0\0\0\0LCM_SELF_TEST\0lcm self test", 35};
 
-class Socket {
- public:
-  Socket() : fd_(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {}
-  ~Socket() {
-    if (fd_ >= 0) close(fd_);
-  }
-  Socket(const Socket&) = delete;
-  Socket& operator=(const Socket&) = delete;
-  [[nodiscard]] int fd() const { return fd_; }
-
- private:
-  int fd_;
-};
+int datagram_socket() {
+  return socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+}
 
 [[noreturn]] void fail(const std::string& url, const std::string& reason, std::string_view remedy) {
   throw BusUnavailable("LCM URL '" + url + "': " + reason + "; remedy: " + std::string(remedy));
@@ -110,28 +100,28 @@ void require_multicast(const std::string& url) {
   address.sin_port = htons(group.port);
   inet_pton(AF_INET, group.address.c_str(), &address.sin_addr);
 
-  const Socket receiver;
-  const Socket sender;
+  const FileDescriptor receiver(datagram_socket());
+  const FileDescriptor sender(datagram_socket());
   const auto error_text = [] { return std::system_category().message(errno); };
-  if (receiver.fd() < 0 || sender.fd() < 0)
+  if (receiver.get() < 0 || sender.get() < 0)
     fail(url, "no socket (" + error_text() + ")", "raise the limit of open files");
-  const bool joined = join(receiver.fd(), address);
+  const bool joined = join(receiver.get(), address);
   if (!joined && (errno == EADDRINUSE || errno == EACCES)) {
     fail(url, "port " + std::to_string(group.port) + " is taken (" + error_text() + ")",
          "choose another port in the URL");
   }
-  if (!joined || !set_option(sender.fd(), IPPROTO_IP, IP_MULTICAST_TTL, std::uint8_t{0}) ||
-      !send_self_test(sender.fd(), address)) {
+  if (!joined || !set_option(sender.get(), IPPROTO_IP, IP_MULTICAST_TTL, std::uint8_t{0}) ||
+      !send_self_test(sender.get(), address)) {
     fail(url, "no multicast route to " + group.address + " (" + error_text() + ")", kRouteRemedy);
   }
   const auto deadline = Clock::now() + kPatience;
-  while (!arrives(receiver.fd(), local_port(sender.fd()))) {
+  while (!arrives(receiver.get(), local_port(sender.get()))) {
     if (Clock::now() >= deadline) {
       fail(url, "multicast to " + name + " does not come back to this machine",
            "let UDP port " + std::to_string(group.port) +
                " through the firewall, or route it to the loopback: " + std::string(kRouteRemedy));
     }
-    (void)send_self_test(sender.fd(), address);
+    (void)send_self_test(sender.get(), address);
   }
 }
 

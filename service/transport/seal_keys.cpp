@@ -13,6 +13,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "service/transport/file_descriptor.hpp"
+
 namespace graspd {
 namespace {
 
@@ -27,20 +29,6 @@ void require_sodium() {
   if (sodium_init() < 0) throw std::runtime_error("libsodium finds no source of random numbers");
 }
 
-class Descriptor {
- public:
-  explicit Descriptor(int fd) : fd_(fd) {}
-  ~Descriptor() {
-    if (fd_ >= 0) close(fd_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  [[nodiscard]] int get() const { return fd_; }
-
- private:
-  int fd_;
-};
-
 /// Of the open file, so that nobody can change it in between.
 void check_access(const std::filesystem::path& file, int fd) {
   struct stat status {};
@@ -53,7 +41,7 @@ void check_access(const std::filesystem::path& file, int fd) {
 
 std::string read_text(const std::filesystem::path& file) {
   // A pipe would block for ever.
-  const Descriptor fd(open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  const FileDescriptor fd(open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (fd.get() < 0) fail(file, std::string("cannot be read: ") + std::strerror(errno));
   check_access(file, fd.get());
   std::string text(kMaxFileBytes + 1, '\0');
@@ -123,7 +111,7 @@ void create_seal_key(const std::filesystem::path& file) {
   std::string text(2 * kSealKeyBytes + 1, '\0');
   sodium_bin2hex(text.data(), text.size(), key.bytes.data(), key.bytes.size());
   text.back() = '\n';
-  const Descriptor fd(open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, S_IRUSR | S_IWUSR));
+  const FileDescriptor fd(open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, S_IRUSR | S_IWUSR));
   if (fd.get() < 0) fail(file, std::string("cannot be created: ") + std::strerror(errno));
   if (write(fd.get(), text.data(), text.size()) != static_cast<ssize_t>(text.size()) || fsync(fd.get()) != 0)
     fail(file, std::string("cannot be written: ") + std::strerror(errno));
