@@ -16,6 +16,8 @@
 #include <stdexcept>
 #include <thread>
 
+#include "client/bench/memory_use.hpp"
+
 namespace graspd {
 namespace {
 
@@ -79,12 +81,7 @@ double DaemonProcess::cpu_seconds() const {
 }
 
 double DaemonProcess::peak_bytes() const {
-  std::ifstream file("/proc/" + std::to_string(pid_) + "/status");
-  for (std::string word; file >> word;) {
-    double kib = 0;
-    if (word == "VmHWM:" && file >> kib) return 1024 * kib;
-  }
-  return 0;
+  return static_cast<double>(status_bytes(std::to_string(pid_), "VmHWM:").value_or(0));
 }
 
 std::string DaemonProcess::said() const {

@@ -5,20 +5,9 @@
 #include <malloc.h>
 
 #include <fstream>
-#include <string>
 
 namespace graspd {
 namespace {
-
-/// A value of /proc/self/status [bytes].
-std::optional<std::int64_t> status_bytes(const std::string& key) {
-  std::ifstream file("/proc/self/status");
-  for (std::string word; file >> word;) {
-    std::int64_t kib = 0;
-    if (word == key && file >> kib) return 1024 * kib;
-  }
-  return std::nullopt;
-}
 
 bool reset_peak() {
   std::ofstream file("/proc/self/clear_refs");
@@ -28,12 +17,21 @@ bool reset_peak() {
 
 }  // namespace
 
+std::optional<std::int64_t> status_bytes(const std::string& process, const std::string& key) {
+  std::ifstream file("/proc/" + process + "/status");
+  for (std::string word; file >> word;) {
+    std::int64_t kib = 0;
+    if (word == key && file >> kib) return 1024 * kib;
+  }
+  return std::nullopt;
+}
+
 std::optional<std::int64_t> peak_growth_bytes(const std::function<void()>& body) {
   malloc_trim(0);
   if (!reset_peak()) return std::nullopt;
-  const auto before = status_bytes("VmRSS:");
+  const auto before = status_bytes("self", "VmRSS:");
   body();
-  const auto peak = status_bytes("VmHWM:");
+  const auto peak = status_bytes("self", "VmHWM:");
   if (!before || !peak) return std::nullopt;
   return *peak - *before;
 }

@@ -5,11 +5,16 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 
 namespace graspd {
 
 /// By how much the resident memory of this process rises above where it was while the body runs [bytes], with
 /// free memory given back to the kernel before. Nothing where the kernel does not tell.
 [[nodiscard]] std::optional<std::int64_t> peak_growth_bytes(const std::function<void()>& body);
+
+/// A value of /proc/PROCESS/status [bytes]; process: a number, or "self". key: with its colon. Nothing where
+/// it is not told.
+[[nodiscard]] std::optional<std::int64_t> status_bytes(const std::string& process, const std::string& key);
 
 }  // namespace graspd
