@@ -146,10 +146,8 @@ class Faults(MessageFaults, Trial):
         self.until(lambda: self.status.config_revision > 1, "a reload in the status")
         return "goes on, with the configuration"
 
-    @fault("a bad configuration at a reload", "the old one is kept, the status says why")
-    def fault_bad_config(self):
-        """nonsense in the file, SIGHUP"""
-        self.config.write_text("sources: [", encoding="utf-8")
+    def refused_reload(self):
+        """Reloads what is there now, and then the good configuration again."""
         self.daemon.process.send_signal(signal.SIGHUP)
         self.until(lambda: self.status.config_error, "the error in the status")
         self.config.write_text(CONFIG, encoding="utf-8")
@@ -157,16 +155,17 @@ class Faults(MessageFaults, Trial):
         self.until(lambda: not self.status.config_error, "the good one")
         return "the old one is kept, the status says why"
 
+    @fault("a bad configuration at a reload", "the old one is kept, the status says why")
+    def fault_bad_config(self):
+        """nonsense in the file, SIGHUP"""
+        self.config.write_text("sources: [", encoding="utf-8")
+        return self.refused_reload()
+
     @fault("the configuration is gone at a reload", "the old one is kept, the status says why")
     def fault_no_config(self):
         """the file is removed, SIGHUP"""
         self.config.unlink()
-        self.daemon.process.send_signal(signal.SIGHUP)
-        self.until(lambda: self.status.config_error, "the error in the status")
-        self.config.write_text(CONFIG, encoding="utf-8")
-        self.daemon.process.send_signal(signal.SIGHUP)
-        self.until(lambda: not self.status.config_error, "the good one")
-        return "the old one is kept, the status says why"
+        return self.refused_reload()
 
     @fault("nonsense on the control channel", "refused, the status says why")
     def fault_control(self):
