@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "client/common/cloud_file.hpp"
-#include "tests/unit/client/temp_folder.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace graspd {
 namespace {

@@ -10,7 +10,7 @@
 #include <memory>
 
 #include "client/log/recorder.hpp"
-#include "tests/unit/client/temp_folder.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace graspd {
 namespace {

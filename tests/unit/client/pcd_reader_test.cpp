@@ -8,8 +8,8 @@
 #include <pcl/io/ply_io.h>
 
 #include "client/simulate/rng.hpp"
+#include "tests/support/temp_folder.hpp"
 #include "tests/unit/client/sample_cloud.hpp"
-#include "tests/unit/client/temp_folder.hpp"
 
 namespace graspd {
 namespace {

@@ -7,8 +7,8 @@
 
 #include <cmath>
 
+#include "tests/support/temp_folder.hpp"
 #include "tests/unit/client/sample_cloud.hpp"
-#include "tests/unit/client/temp_folder.hpp"
 
 namespace graspd {
 namespace {

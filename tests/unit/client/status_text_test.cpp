@@ -13,7 +13,7 @@
 
 #include "client/common/replace_file.hpp"
 #include "client/status/prometheus.hpp"
-#include "tests/unit/client/temp_folder.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace graspd {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "service/config/service_config.hpp"
-#include "tests/unit/config/temporary_folder.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace graspd {
 namespace {
@@ -36,7 +36,7 @@ class ConfigLayersTest : public testing::Test {
     }
   }
 
-  const TemporaryFolder folder_;
+  const TempFolder folder_;
   ConfigLayers layers_;
 };
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/unit/config/temporary_folder.hpp"
+#include "tests/unit/config/config_error_text.hpp"
 
 namespace graspd {
 namespace {

@@ -5,7 +5,8 @@
 #include <string>
 
 #include "service/config/service_config.hpp"
-#include "tests/unit/config/temporary_folder.hpp"
+#include "tests/support/temp_folder.hpp"
+#include "tests/unit/config/config_error_text.hpp"
 
 namespace graspd {
 namespace {
@@ -21,13 +22,13 @@ std::string with(const std::string& from, const std::string& to) {
 }
 
 std::string error_of(const std::string& text) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   const auto file = folder.write("g.yaml", text);
   return config_error(file, [&] { static_cast<void>(load_gripper(file)); });
 }
 
 TEST(GripperFile, ReadsAllLengthsAndTheFilesName) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   const Gripper gripper = load_gripper(folder.write("big_hand.yaml", kGripper));
   EXPECT_EQ(gripper.name, "big_hand");
   EXPECT_EQ(gripper.aperture_m, 0.1f);
@@ -64,7 +65,7 @@ TEST(GripperFile, MillimetresAreNoticed) {
 }
 
 TEST(FindGripper, BesideTheServiceFileBeforeTheInstalledOnes) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   EXPECT_EQ(find_gripper("franka_hand", folder.path()).installed_name, "franka_hand");
   folder.write("grippers/franka_hand.yaml", kGripper);
   const GripperSetting own = find_gripper("franka_hand", folder.path());
@@ -73,14 +74,14 @@ TEST(FindGripper, BesideTheServiceFileBeforeTheInstalledOnes) {
 }
 
 TEST(FindGripper, ByPath) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   folder.write("hands/h.yaml", kGripper);
   EXPECT_EQ(find_gripper("hands/h.yaml", folder.path()).gripper.name, "h");
   EXPECT_EQ(find_gripper((folder.path() / "hands/h.yaml").string(), "/somewhere/else").gripper.name, "h");
 }
 
 TEST(FindGripper, UnknownOnesNameThoseThatThereAre) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   EXPECT_EQ(
       config_error("gripper", [&] { static_cast<void>(find_gripper("hook", folder.path())); }),
       "no such file in grippers/ (got hook, expected franka_hand, paper_80mm, robotiq_2f_140, robotiq_2f_85, "

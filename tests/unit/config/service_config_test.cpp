@@ -6,18 +6,19 @@
 
 #include <string>
 
-#include "tests/unit/config/temporary_folder.hpp"
+#include "tests/support/temp_folder.hpp"
+#include "tests/unit/config/config_error_text.hpp"
 
 namespace graspd {
 namespace {
 
 ServiceConfig load(const std::string& text) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   return load_service_config(folder.write("graspd.yaml", text));
 }
 
 std::string error_of(const std::string& text) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   const auto file = folder.write("graspd.yaml", text);
   return config_error(file, [&] { static_cast<void>(load_service_config(file)); });
 }
@@ -210,7 +211,7 @@ INSTANTIATE_TEST_SUITE_P(
               "sources[0].detect: wrong type (got a list of 1, expected a map of keys and values)"}));
 
 TEST(ServiceConfig, ErrorsInOtherFilesNameThose) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   const auto sensor =
       folder.write("sensors/mine.yaml", "detect: {workspace: {min_range_m: 3, max_range_m: 2}}");
   const auto file = folder.write("graspd.yaml", "sources: [{name: a, channel: A, sensor: mine}]");
@@ -223,7 +224,7 @@ TEST(ServiceConfig, ErrorsInOtherFilesNameThose) {
 }
 
 TEST(DetectConfig, IsTheServicesThenTheSensors) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   const auto file = folder.write("graspd.yaml", "detect: {workspace: {max_range_m: 2.5, min_range_m: 0.2}}");
   EXPECT_EQ(load_detect_config(file).workspace.max_range_m, 2.5f);
   EXPECT_EQ(load_detect_config("").workspace.max_range_m, DetectConfig{}.workspace.max_range_m);

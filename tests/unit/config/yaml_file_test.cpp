@@ -7,7 +7,8 @@
 #include <string>
 #include <string_view>
 
-#include "tests/unit/config/temporary_folder.hpp"
+#include "tests/support/temp_folder.hpp"
+#include "tests/unit/config/config_error_text.hpp"
 
 namespace graspd {
 namespace {
@@ -15,19 +16,19 @@ namespace {
 using namespace std::string_view_literals;
 
 std::string error_of(std::string_view text) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   const auto file = folder.write("f.yaml", text);
   return config_error(file, [&] { static_cast<void>(load_yaml(file)); });
 }
 
 TEST(YamlFile, EmptyIsNull) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   EXPECT_TRUE(load_yaml(folder.write("f.yaml", "")).IsNull());
   EXPECT_TRUE(load_yaml(folder.write("f.yaml", "# only a comment\n")).IsNull());
 }
 
 TEST(YamlFile, UnreadableFiles) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   const auto missing = folder.path() / "missing.yaml";
   EXPECT_EQ(config_error(missing, [&] { static_cast<void>(load_yaml(missing)); }), "no such file");
   EXPECT_EQ(config_error(folder.path(), [&] { static_cast<void>(load_yaml(folder.path())); }),

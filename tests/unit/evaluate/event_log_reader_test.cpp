@@ -6,7 +6,7 @@
 
 #include <random>
 
-#include "tests/unit/client/temp_folder.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace graspd {
 namespace {

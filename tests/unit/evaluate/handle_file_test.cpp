@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "client/common/handle_csv.hpp"
-#include "tests/unit/client/temp_folder.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace graspd {
 namespace {

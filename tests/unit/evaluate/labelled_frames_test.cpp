@@ -7,7 +7,7 @@
 #include "client/log/event_log_file.hpp"
 #include "service/transport/cloud_encoder.hpp"
 #include "service/transport/handle_list_codec.hpp"
-#include "tests/unit/client/temp_folder.hpp"
+#include "tests/support/temp_folder.hpp"
 #include "tests/unit/evaluate/labelled_scene.hpp"
 
 namespace graspd {

@@ -12,21 +12,15 @@
 #include <stdexcept>
 #include <string>
 
+#include "tests/support/temp_folder.hpp"
+
 namespace graspd {
 namespace {
 
 class SealKeysTest : public testing::Test {
  protected:
-  SealKeysTest() {
-    std::string folder = (std::filesystem::temp_directory_path() / "graspd_keys_XXXXXX").string();
-    if (mkdtemp(folder.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    folder_ = folder;
-  }
-  ~SealKeysTest() override { std::filesystem::remove_all(folder_); }
-
   std::filesystem::path write(const std::string& text, mode_t mode) {
-    const auto path = folder_ / "key";
-    std::ofstream(path) << text;
+    const auto path = folder_.write("key", text);
     EXPECT_EQ(chmod(path.c_str(), mode), 0);
     return path;
   }
@@ -41,7 +35,7 @@ class SealKeysTest : public testing::Test {
   }
 
   const std::string digits_ = "00112233445566778899aabbccddeeff00112233445566778899AABBCCDDEEFF";
-  std::filesystem::path folder_;
+  const TempFolder folder_;
 };
 
 TEST_F(SealKeysTest, ReadsKeysAndComments) {
@@ -65,7 +59,7 @@ TEST_F(SealKeysTest, RefusesFilesThatOthersCanRead) {
 
 TEST_F(SealKeysTest, SaysWhatIsWrongAndNeverTheKey) {
   EXPECT_NE(problem(folder_ / "none").find("No such file"), std::string::npos);
-  EXPECT_NE(problem(folder_).find("not a regular file"), std::string::npos);
+  EXPECT_NE(problem(folder_.path()).find("not a regular file"), std::string::npos);
   EXPECT_NE(problem(write("# nothing\n", 0600)).find("no key in it"), std::string::npos);
   EXPECT_NE(problem(write(std::string(20000, ' '), 0600)).find("too large"), std::string::npos);
   const std::string bad = problem(write("\n" + digits_.substr(1) + "\n", 0600));
