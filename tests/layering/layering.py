@@ -55,6 +55,7 @@ LIBRARIES = [
     ("PCL", re.compile(r"pcl/"), {"service/pipeline", "client", "tests"}),
     ("Eigen", re.compile(r"Eigen/"), {"service/pipeline", "service/transport", "service/config", "service/daemon",
                                       "client", "tests"}),
+    ("Boost", re.compile(r"boost/"), {"client", "tests"}),
     ("oneTBB", re.compile(r"(tbb|oneapi)/"), {"service/pipeline", "service/runtime", "service/daemon", "client",
                                               "tests"}),
     ("test library", re.compile(r"(gtest|gmock|benchmark)/"), {"tests"}),
