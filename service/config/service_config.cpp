@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <regex>
+#include <utility>
 
 namespace graspd {
 namespace {
@@ -35,39 +36,73 @@ std::optional<std::string> regex_problem(const std::string& channel_regex) {
   }
 }
 
-std::optional<ConfigProblem> validate_channels(const ServiceConfig& config) {
-  if (const auto problem = channel_problem(config.lcm.status_channel))
-    return ConfigProblem{"lcm.status_channel", *problem};
-  const std::string& control = config.lcm.control_channel;
-  if (const auto problem = channel_problem(control); problem && !control.empty())
-    return ConfigProblem{"lcm.control_channel", *problem};
-  if (control == config.lcm.status_channel)
-    return ConfigProblem{"lcm.control_channel",
-                         "two types on one channel: expected another than lcm.status_channel"};
+/// A channel for messages to the daemon; empty: none.
+std::optional<ConfigProblem> validate_input(const ServiceConfig& config, const char* key,
+                                            const std::string& channel) {
+  if (channel.empty()) return std::nullopt;
+  if (const auto problem = channel_problem(channel)) return ConfigProblem{key, *problem};
+  if (channel == config.lcm.status_channel)
+    return ConfigProblem{key, "two types on one channel: expected another than lcm.status_channel"};
   for (std::size_t i = 0; i < config.sources.size(); ++i) {
-    const SourceConfig& source = config.sources[i];
-    if (const auto problem = regex_problem(source.channel))
-      return ConfigProblem{source_key(i, "channel"), *problem};
-    if (const auto problem = channel_problem(source.handles_channel))
-      return ConfigProblem{source_key(i, "handles_channel"), *problem};
-    if (source.handles_channel == config.lcm.status_channel)
-      return ConfigProblem{source_key(i, "handles_channel"),
-                           "two types on one channel: expected another than "
-                           "lcm.status_channel"};
-    if (source.handles_channel == control)
-      return ConfigProblem{source_key(i, "handles_channel"),
-                           "two types on one channel: expected another than "
-                           "lcm.control_channel"};
-    if (!control.empty() && matches_channel(source.channel, control))
+    if (matches_channel(config.sources[i].channel, channel))
       return ConfigProblem{source_key(i, "channel"),
-                           "matches lcm.control_channel " + control + ": expected clouds only"};
+                           "matches " + std::string(key) + " " + channel + ": expected clouds only"};
   }
+  return std::nullopt;
+}
+
+/// A channel for answers.
+std::optional<ConfigProblem> validate_output(const ServiceConfig& config, const std::string& key,
+                                             const std::string& channel) {
+  if (const auto problem = channel_problem(channel)) return ConfigProblem{key, *problem};
+  const LcmConfig& lcm = config.lcm;
+  const std::pair<const char*, const std::string&> others[] = {{"lcm.status_channel", lcm.status_channel},
+                                                               {"lcm.control_channel", lcm.control_channel},
+                                                               {"lcm.request_channel", lcm.request_channel}};
+  for (const auto& [other_key, other] : others)
+    if (channel == other)
+      return ConfigProblem{key, "two types on one channel: expected another than " + std::string(other_key)};
+  return std::nullopt;
+}
+
+std::optional<ConfigProblem> validate_source_channels(const ServiceConfig& config, std::size_t i) {
+  const SourceConfig& source = config.sources[i];
+  if (const auto problem = regex_problem(source.channel))
+    return ConfigProblem{source_key(i, "channel"), *problem};
+  if (auto problem = validate_output(config, source_key(i, "handles_channel"), source.handles_channel))
+    return problem;
+  if (auto problem = validate_output(config, source_key(i, "segments_channel"), source.segments_channel))
+    return problem;
+  for (const SourceConfig& other : config.sources)
+    if (source.segments_channel == other.handles_channel)
+      return ConfigProblem{source_key(i, "segments_channel"),
+                           "two types on one channel: expected another than any handles_channel"};
+  return std::nullopt;
+}
+
+std::optional<ConfigProblem> validate_channels(const ServiceConfig& config) {
+  const LcmConfig& lcm = config.lcm;
+  if (const auto problem = channel_problem(lcm.status_channel))
+    return ConfigProblem{"lcm.status_channel", *problem};
+  for (std::size_t i = 0; i < config.sources.size(); ++i)
+    if (auto problem = validate_source_channels(config, i)) return problem;
+  return std::nullopt;
+}
+
+std::optional<ConfigProblem> validate_inputs(const ServiceConfig& config) {
+  const LcmConfig& lcm = config.lcm;
+  if (auto problem = validate_input(config, "lcm.control_channel", lcm.control_channel)) return problem;
+  if (auto problem = validate_input(config, "lcm.request_channel", lcm.request_channel)) return problem;
+  if (!lcm.request_channel.empty() && lcm.request_channel == lcm.control_channel)
+    return ConfigProblem{"lcm.request_channel",
+                         "two types on one channel: expected another than lcm.control_channel"};
   return std::nullopt;
 }
 
 std::optional<ConfigProblem> validate_no_loop(const ServiceConfig& config) {
   std::vector<std::string> own{config.lcm.status_channel};
-  for (const SourceConfig& source : config.sources) own.push_back(source.handles_channel);
+  for (const SourceConfig& source : config.sources)
+    own.insert(own.end(), {source.handles_channel, source.segments_channel});
   for (std::size_t i = 0; i < config.sources.size(); ++i) {
     for (const std::string& channel : own) {
       if (matches_channel(config.sources[i].channel, channel))
@@ -93,7 +128,8 @@ std::optional<ConfigProblem> ServiceConfig::validate() const {
     }
   }
   if (auto problem = validate_channels(*this)) return problem;
-  return validate_no_loop(*this);
+  if (auto problem = validate_no_loop(*this)) return problem;
+  return validate_inputs(*this);
 }
 
 bool matches_channel(const std::string& channel_regex, const std::string& channel) {

@@ -22,6 +22,7 @@ struct LcmConfig {
   std::string url;  ///< empty: LCM_DEFAULT_URL, else LCM's default group with ttl 0
   std::string status_channel = "GRASPD_STATUS";
   std::string control_channel;
+  std::string request_channel = "GRASPD_REQUESTS";
   double retry_longest_s = 5;
   double give_up_s = 0;
 
@@ -32,6 +33,8 @@ struct LcmConfig {
     v("status_channel", self.status_channel, Range{}, "channel of status_t, sent once a second");
     v("control_channel", self.control_channel, Range{},
       "channel of control_t, for example GRASPD_CONTROL; empty: nobody can change settings over LCM");
+    v("request_channel", self.request_channel, Range{},
+      "channel of segmentation_request_t, by which a viewer asks for segments; empty: nobody can");
     v("retry_longest_s", self.retry_longest_s, Range{0.1, 3600},
       "while LCM cannot be had or was lost, attempts are up to this far apart [s]");
     v("give_up_s", self.give_up_s, Range{0, 1e6}, "graspd ends when LCM is away for so long [s]; 0: never");

@@ -21,6 +21,12 @@ enum class FramePolicy { kLatest, kAll };
   return {"latest", "all"};
 }
 
+/// When frames are followed by what was seen in them.
+enum class PublishSegments { kNever, kOnRequest, kAlways };
+[[nodiscard]] constexpr std::array<std::string_view, 3> choices(PublishSegments) {
+  return {"never", "on_request", "always"};
+}
+
 /// Where the sensor is (extrinsics). Without a frame name handles stay in the cloud's frame.
 struct SensorPose {
   std::string frame_name;
@@ -82,6 +88,8 @@ struct SourceConfig {
   std::string name = "camera";
   std::string channel = "GRASPD_CLOUD";
   std::string handles_channel = "GRASPD_HANDLES";
+  std::string segments_channel = "GRASPD_SEGMENTS";
+  PublishSegments publish_segments = PublishSegments::kOnRequest;
   FramePolicy policy = FramePolicy::kLatest;
   int queue_length = 30;
   int deadline_ms = 0;
@@ -98,6 +106,10 @@ struct SourceConfig {
     v("channel", self.channel, Range{},
       "channel of the clouds or depth images, or a regular expression for the whole name; required");
     v("handles_channel", self.handles_channel, Range{}, "channel of the answers, handle_list_t");
+    v("segments_channel", self.segments_channel, Range{}, "channel of segmentation_t");
+    v("publish_segments", self.publish_segments, Range{},
+      "each frame's points and segments go out too: never, while somebody asks for them on "
+      "lcm.request_channel, or always");
     v("policy", self.policy, Range{},
       "latest: a newer frame replaces one that waits; all: frames wait in turn");
     v("queue_length", self.queue_length, Range{1, 1000}, "frames that wait at most, with policy all");

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "graspd/handle_list_t.hpp"
 #include "service/runtime/clock.hpp"
@@ -36,11 +37,13 @@ inline constexpr std::size_t kNumDropReasons = static_cast<std::size_t>(DropReas
 
 struct Answer {
   Outcome outcome = Outcome::kProcessed;
-  std::optional<RefusalReason> refusal;  ///< with kRefused
-  std::optional<DropReason> drop;        ///< with kDropped
-  Clock::TimePoint arrival{};            ///< of the message
-  std::string handles_channel;           ///< to publish it on
-  handle_list_t list;                    ///< complete but for the latency
+  std::optional<RefusalReason> refusal;   ///< with kRefused
+  std::optional<DropReason> drop;         ///< with kDropped
+  Clock::TimePoint arrival{};             ///< of the message
+  std::string handles_channel;            ///< to publish it on
+  handle_list_t list{};                   ///< complete but for the latency
+  std::string segments_channel{};         ///< to publish the next one on
+  std::vector<std::byte> segmentation{};  ///< a message; empty: none, or nobody wants it
 };
 
 }  // namespace graspd

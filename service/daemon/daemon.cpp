@@ -20,6 +20,8 @@ constexpr auto kFinishLimit =
     1200ms;  // with kCancelLimit less than the two seconds that a supervisor is promised
 constexpr auto kCancelLimit = 400ms;
 constexpr auto kPublishLimit = 100ms;
+// Many answers may wait for one that takes long; these are for people to see, and larger than all the rest.
+constexpr std::size_t kMostWaitingSegmentations = 8;
 
 std::string whole_ms(Clock::TimePoint::duration time) {
   return std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(time).count()) + " ms";
@@ -97,6 +99,8 @@ void Daemon::on_packet(const std::string& subscription, const Packet& packet) {
   if (stopped_ || subscription == config_->lcm.status_channel) return;
   if (subscription == config_->lcm.control_channel) {
     on_control(packet);
+  } else if (subscription == config_->lcm.request_channel) {
+    on_request(packet);
   } else if (!table_.knows(packet.channel) && !authentication_.admits(packet)) {
     table_.ignore(packet.channel, "not signed with a key of ours");
   } else if (const auto stream = table_.find(subscription, packet.channel)) {
@@ -111,6 +115,7 @@ void Daemon::take(const std::shared_ptr<Stream>& stream, const Packet& packet) {
   const auto* bytes = std::get_if<std::span<const std::byte>>(&opened);
   const FrameHeader header = bytes != nullptr ? peek_header(*bytes, limits) : FrameHeader{};
   Job job{stream, stream->processor, stream->gate.take_ticket(), {header, {}, arrival_of(packet)}};
+  job.message.segments_requested = requests_.wants(packet.channel, clock_.now());
   stream->health.received(job.message.header.seq, clock_.now());
   // Here already, so that what cannot be used never takes the place of a frame that can.
   const auto refusal = bytes != nullptr ? check_cloud(*bytes, limits) : std::get<Refusal>(opened);
@@ -165,6 +170,7 @@ void Daemon::work(Job job) {
     const WorkWatch::Entry entry(work_watch_, job, clock_.now());
     answer = work_on(job, entry.cancelled());
   }
+  if (job.stream->gate.waiting() >= kMostWaitingSegmentations) answer.segmentation = {};
   job.stream->gate.release(job.ticket, std::move(answer));
 }
 

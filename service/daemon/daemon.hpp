@@ -21,6 +21,7 @@
 #include "service/daemon/authentication.hpp"
 #include "service/daemon/config_control.hpp"
 #include "service/daemon/health.hpp"
+#include "service/daemon/segmentation_requests.hpp"
 #include "service/daemon/stream.hpp"
 #include "service/daemon/stream_table.hpp"
 #include "service/daemon/work_watch.hpp"
@@ -67,6 +68,7 @@ class Daemon {
   void keep_fixed_settings(ServiceConfig& config);
   void on_packet(const std::string& subscription, const Packet& packet);
   void on_control(const Packet& packet);
+  void on_request(const Packet& packet);
   void obey_controls();
   void take(const std::shared_ptr<Stream>& stream, const Packet& packet);
   void hold_answers_within_limit(Stream& stream);
@@ -89,6 +91,7 @@ class Daemon {
   std::shared_ptr<const ServiceConfig> config_;
   ConfigControl control_;
   Authentication authentication_;
+  SegmentationRequests requests_;
   std::set<std::string> subscriptions_;
   std::deque<control_t> controls_;  // that have arrived and are not obeyed yet
   tbb::global_control helpers_;     // one thread less than a frame may have; all workers share them

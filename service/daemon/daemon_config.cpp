@@ -6,6 +6,7 @@
 
 #include "service/daemon/daemon.hpp"
 #include "service/transport/control_codec.hpp"
+#include "service/transport/segmentation_request_codec.hpp"
 
 namespace graspd {
 namespace {
@@ -18,7 +19,8 @@ std::set<std::string> subscriptions_of(const ServiceConfig& config) {
   for (const SourceConfig& source : config.sources) channels.insert(source.channel);
   // Hearing its own status shows the bus that it carries something.
   channels.insert(config.lcm.status_channel);
-  if (!config.lcm.control_channel.empty()) channels.insert(config.lcm.control_channel);
+  for (const std::string& channel : {config.lcm.control_channel, config.lcm.request_channel})
+    if (!channel.empty()) channels.insert(channel);
   return channels;
 }
 
@@ -101,6 +103,20 @@ void Daemon::on_control(const Packet& packet) {
   } else {
     // Not from within a handler: LCM cannot unsubscribe there.
     controls_.push_back(std::move(*control));
+  }
+}
+
+void Daemon::on_request(const Packet& packet) {
+  const auto opened = authentication_.open(packet, clock_.wall_utime());
+  if (const auto* refusal = std::get_if<Refusal>(&opened)) {
+    log_.warning("request_refused", {{"reason", refusal->text}});
+    return;
+  }
+  const auto request = decode_segmentation_request(std::get<std::span<const std::byte>>(opened));
+  if (!request) {
+    log_.warning("request_refused", {{"reason", "no valid segmentation_request_t"}});
+  } else if (!requests_.add(*request, clock_.now())) {
+    log_.warning("request_refused", {{"reason", "for too many channels"}});
   }
 }
 

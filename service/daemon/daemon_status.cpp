@@ -20,6 +20,7 @@ void Daemon::publish(Stream& stream, Answer answer) {
   // Counted first: whoever has the answer finds it in the next status.
   stream.health.answered(answer, latency_s);
   send(answer.handles_channel, encode(answer.list));
+  if (!answer.segmentation.empty()) send(answer.segments_channel, answer.segmentation);
 }
 
 void Daemon::send(const std::string& channel, std::span<const std::byte> bytes) {

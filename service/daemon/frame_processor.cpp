@@ -8,6 +8,7 @@
 
 #include "service/pipeline/detect_handles.hpp"
 #include "service/transport/cloud_decoder.hpp"
+#include "service/transport/segmentation_codec.hpp"
 
 namespace graspd {
 namespace {
@@ -88,19 +89,33 @@ Answer FrameProcessor::detect(const FrameMessage& message, Effort effort,
   const Frame& frame = std::get<Frame>(decoded);
   const Gripper& gripper = source_.gripper.gripper;
   const DetectConfig& settings = effort == Effort::kDegraded ? degraded_detect_ : source_.detect;
-  const Detection detection = detect_handles(frame.cloud, gripper, settings, on_stage);
+  const bool with_segments = publishes_segments(message);
+  Surfaces surfaces;
+  const Detection detection =
+      detect_handles(frame.cloud, gripper, settings, on_stage, with_segments ? &surfaces : nullptr);
   HandleListHeader header = list_header({frame.utime, frame.seq, frame.frame_name});
   header.voxel_m = double{settings.downsample.leaf_size_m};
   header.degraded = effort == Effort::kDegraded && source_.degrade.voxel_m > 0;
   header.status = wire_status(detection.status);
   header.status_text = status_text(detection);
   header.stages_ms = std::move(timer.stages_ms);
-  return {Outcome::kProcessed,
-          std::nullopt,
-          std::nullopt,
-          message.arrival,
-          source_.handles_channel,
-          make_handle_list(header, gripper, detection, source_.sensor_pose.T_target_cloud())};
+  const Eigen::Isometry3f T_target_cloud = source_.sensor_pose.T_target_cloud();
+  Answer answer{Outcome::kProcessed,
+                std::nullopt,
+                std::nullopt,
+                message.arrival,
+                source_.handles_channel,
+                make_handle_list(header, gripper, detection, T_target_cloud)};
+  if (!surfaces.cloud.empty()) {
+    answer.segments_channel = source_.segments_channel;
+    answer.segmentation = encode(make_segmentation(header, detection, surfaces, T_target_cloud));
+  }
+  return answer;
+}
+
+bool FrameProcessor::publishes_segments(const FrameMessage& message) const {
+  return source_.publish_segments == PublishSegments::kAlways ||
+         (source_.publish_segments == PublishSegments::kOnRequest && message.segments_requested);
 }
 
 Answer FrameProcessor::drop(const FrameMessage& message, DropReason reason, const std::string& why) const {

@@ -23,6 +23,7 @@ struct FrameMessage {
   FrameHeader header;
   std::vector<std::byte> bytes;
   Clock::TimePoint arrival{};
+  bool segments_requested = false;  ///< by somebody who wants to see them
 };
 
 /// How much work a frame is worth now.
@@ -56,6 +57,7 @@ class FrameProcessor {
   struct Cancelled {};
 
   Answer detect(const FrameMessage& message, Effort effort, const std::atomic<bool>& cancelled) const;
+  [[nodiscard]] bool publishes_segments(const FrameMessage& message) const;
   HandleListHeader list_header(const FrameHeader& header) const;
   Answer without_detection(Outcome outcome, const HandleListHeader& header, Clock::TimePoint arrival) const;
 

@@ -104,9 +104,11 @@ std::size_t StreamTable::first_match(const std::string& channel) const {
 }
 
 bool StreamTable::is_own(const std::string& channel) const {
-  return channel == config_->lcm.status_channel || channel == config_->lcm.control_channel ||
-         std::any_of(config_->sources.begin(), config_->sources.end(),
-                     [&](const SourceConfig& source) { return source.handles_channel == channel; });
+  const LcmConfig& lcm = config_->lcm;
+  return channel == lcm.status_channel || channel == lcm.control_channel || channel == lcm.request_channel ||
+         std::any_of(config_->sources.begin(), config_->sources.end(), [&](const SourceConfig& source) {
+           return source.handles_channel == channel || source.segments_channel == channel;
+         });
 }
 
 }  // namespace graspd

@@ -27,7 +27,7 @@ FailureCounts Detection::segment_failures() const {
 }
 
 Detection detect_handles(const PointCloud& cloud, const Gripper& gripper, const DetectConfig& config,
-                         const StageObserver& observer) {
+                         const StageObserver& observer, Surfaces* seen_surfaces) {
   const auto done = [&observer](std::string_view stage) {
     if (observer) observer(stage);
   };
@@ -54,6 +54,7 @@ Detection detect_handles(const PointCloud& cloud, const Gripper& gripper, const 
   detection.handles = std::move(found.handles);
   detection.status = detection.handles.empty() ? DetectionStatus::kNoHandles : DetectionStatus::kOk;
   done("handles");
+  if (seen_surfaces != nullptr) *seen_surfaces = std::move(surfaces);
   return detection;
 }
 

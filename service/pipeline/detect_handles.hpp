@@ -33,8 +33,10 @@ struct Detection {
 };
 
 /// Finds the handles of a cloud. The result depends on the arguments alone, to the bit, for any number of
-/// threads; work is split over the calling thread's oneTBB arena.
+/// threads; work is split over the calling thread's oneTBB arena. Who wants to see them is given the surfaces
+/// that the handles were looked for on; without points to work on these stay as they are.
 [[nodiscard]] Detection detect_handles(const PointCloud& cloud, const Gripper& gripper,
-                                       const DetectConfig& config, const StageObserver& observer = {});
+                                       const DetectConfig& config, const StageObserver& observer = {},
+                                       Surfaces* seen_surfaces = nullptr);
 
 }  // namespace graspd

@@ -22,6 +22,8 @@ std::vector<SegmentReport> start_reports(const Surfaces& surfaces) {
     const Segment& segment = surfaces.segments.list[s];
     SegmentReport& report = reports.emplace_back();
     report.centroid = segment.centroid;
+    report.normal = segment.normal;
+    report.major = segment.major;
     report.num_points = static_cast<int>(segment.points.size());
     report.object = surfaces.objects.of_segment[s];
   }

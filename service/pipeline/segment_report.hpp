@@ -10,6 +10,8 @@ namespace graspd {
 
 struct SegmentReport {
   Eigen::Vector3f centroid = Eigen::Vector3f::Zero();  ///< [m]
+  Eigen::Vector3f normal = Eigen::Vector3f::UnitZ();   ///< n, towards the sensor
+  Eigen::Vector3f major = Eigen::Vector3f::UnitX();    ///< a
   int num_points = 0;                                  ///< voxels
   int object = -1;
   int num_candidates = 0;    ///< on it, accepted or refused

@@ -53,18 +53,6 @@ handle_t wire_handle(const Handle& handle, std::int32_t id) {
   return result;
 }
 
-std::vector<reason_count_t> wire_failures(const FailureCounts& counts) {
-  std::vector<reason_count_t> result;
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    if (counts[i] == 0) continue;
-    reason_count_t entry;
-    entry.reason = name(static_cast<Failure>(i));
-    entry.count = counts[i];
-    result.push_back(entry);
-  }
-  return result;
-}
-
 void read(ByteReader& reader, gripper_t& gripper) {
   gripper.name = reader.string("gripper.name", kMaxTextLength);
   gripper.aperture = reader.float64("gripper.aperture");
@@ -97,6 +85,18 @@ void read(ByteReader& reader, handle_t& handle) {
 }
 
 }  // namespace
+
+std::vector<reason_count_t> wire_failures(const FailureCounts& counts) {
+  std::vector<reason_count_t> result;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    if (counts[i] == 0) continue;
+    reason_count_t entry;
+    entry.reason = name(static_cast<Failure>(i));
+    entry.count = counts[i];
+    result.push_back(entry);
+  }
+  return result;
+}
 
 std::int8_t wire_status(DetectionStatus status) {
   switch (status) {

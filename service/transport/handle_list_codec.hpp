@@ -35,8 +35,10 @@ struct HandleListHeader {
 /// The status on the wire of a detection.
 [[nodiscard]] std::int8_t wire_status(DetectionStatus status);
 
-/// Handles keep their order, move to the target frame and are numbered from 0. Of the failures those that
-/// happened are listed, in the order of the checks.
+/// Those that happened, in the order of the checks.
+[[nodiscard]] std::vector<reason_count_t> wire_failures(const FailureCounts& counts);
+
+/// Handles keep their order, move to the target frame and are numbered from 0.
 [[nodiscard]] handle_list_t make_handle_list(const HandleListHeader& header, const Gripper& gripper,
                                              const Detection& detection,
                                              const Eigen::Isometry3f& T_target_cloud);

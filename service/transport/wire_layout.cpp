@@ -27,6 +27,10 @@ std::string_view type_name(std::uint64_t fingerprint) {
       return "sealed_t";
     case kControlFingerprint:
       return "control_t";
+    case kSegmentationFingerprint:
+      return "segmentation_t";
+    case kSegmentationRequestFingerprint:
+      return "segmentation_request_t";
     default:
       return {};
   }

@@ -17,6 +17,8 @@ inline constexpr std::uint64_t kHandleListFingerprint = 0x9bf98642e84fd318;
 inline constexpr std::uint64_t kStatusFingerprint = 0x3e93e45b223e4491;
 inline constexpr std::uint64_t kControlFingerprint = 0x1a187596f91f8882;
 inline constexpr std::uint64_t kSealedFingerprint = 0xa70cb71154832893;
+inline constexpr std::uint64_t kSegmentationFingerprint = 0xbb512cf7d3d00ed5;
+inline constexpr std::uint64_t kSegmentationRequestFingerprint = 0x59367a3b2c1bd887;
 inline constexpr std::size_t kFingerprintBytes = 8;
 
 /// Values of point_field_t.datatype.

@@ -159,8 +159,22 @@ def seal_seeds():
     write("seal_keys", "short", "ab" * 31)
 
 
+def segmentation_seeds():
+    reason = struct.pack(">i", 5) + b"palm\0"
+    segment = struct.pack(">iii", 0, 0, 2) + struct.pack(">9d", *range(9)) + struct.pack(">ii", 3, 0) + reason
+    segment += struct.pack(">i", 1) + reason + struct.pack(">q", 3)
+    points = struct.pack("<5H", 0, 1, 65535, 0, 1) + struct.pack("<5H", 9, 8, 7, 65535, 2)
+    head = struct.pack(">qq", 1, 2) + 2 * (struct.pack(">i", 2) + b"f\0") + struct.pack(">qddddd", 3, 0.003, 1, 2, 3, 1e-5)
+    for name, count, size in (("two_points", 2, 20), ("lying_count", 0x7FFFFFFF, 20), ("lying_size", 2, -20)):
+        tail = struct.pack(">4d", 0, 0, 1, 0.5) + struct.pack(">i", 1) + segment
+        write("segmentation", name, head + struct.pack(">ii", count, size) + points + tail)
+    write("segmentation", "no_such_segment", head + struct.pack(">ii", 2, 20) + points + struct.pack(">4di", 0, 0, 0, 0, 0))
+    for name, seconds in (("two_seconds", 2.0), ("for_ever", float("inf")), ("no_number", float("nan"))):
+        write("segmentation_request", name, struct.pack(">qi", 1, 2) + b"C\0" + struct.pack(">d", seconds))
+
+
 def main():
-    for seeds in (detect_seeds, config_seeds, pcd_seeds, ply_seeds, log_seeds, seal_seeds):
+    for seeds in (detect_seeds, config_seeds, pcd_seeds, ply_seeds, log_seeds, seal_seeds, segmentation_seeds):
         seeds()
 
 

@@ -246,6 +246,31 @@ TEST(ServiceConfig, TheControlChannelIsNobodyElses) {
             std::string::npos);
 }
 
+TEST(ServiceConfig, SegmentsAndRequestsHaveChannelsOfTheirOwn) {
+  const ServiceConfig config = load(
+      "{lcm: {request_channel: ASK}, sources: [{name: a, channel: A, segments_channel: S, publish_segments: "
+      "always}]}");
+  EXPECT_EQ(config.lcm.request_channel, "ASK");
+  EXPECT_EQ(config.sources[0].segments_channel, "S");
+  EXPECT_EQ(config.sources[0].publish_segments, PublishSegments::kAlways);
+  EXPECT_EQ(load("").sources[0].publish_segments, PublishSegments::kOnRequest);
+  EXPECT_EQ(load("lcm: {request_channel: \"\"}").lcm.request_channel, "") << "nobody can ask";
+  const auto refuses = [](const std::string& text, const std::string& start) {
+    const std::string error = error_of(text);
+    EXPECT_EQ(error.find(start), 0u) << error;
+  };
+  refuses("lcm: {request_channel: GRASPD_STATUS}", "lcm.request_channel: two types");
+  refuses("lcm: {request_channel: C, control_channel: C}", "lcm.request_channel: two types");
+  refuses("lcm: {request_channel: GRASPD_HANDLES}", "sources[0].handles_channel: two types");
+  refuses("lcm: {request_channel: GRASPD_CLOUD}", "sources[0].channel: matches lcm.request_channel");
+  refuses("sources: [{name: a, channel: A, segments_channel: GRASPD_HANDLES}]",
+          "sources[0].segments_channel: two types");
+  refuses("sources: [{name: a, channel: A, segments_channel: \"\"}]",
+          "sources[0].segments_channel: no channel");
+  refuses("sources: [{name: a, channel: \".*SEGMENTS\"}]", "sources[0].channel: matches GRASPD_SEGMENTS");
+  refuses("sources: [{name: a, channel: A, publish_segments: yes}]", "sources[0].publish_segments: unknown");
+}
+
 TEST(ServiceConfig, DegradationIsCheckedAgainstTheSourcesOwnVoxels) {
   const std::string error = error_of(
       "sources: [{name: a, channel: A, detect: {downsample: {leaf_size_m: 0.005}}, degrade: {voxel_m: "

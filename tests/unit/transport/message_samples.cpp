@@ -67,6 +67,22 @@ source_status_t random_source(Random& random) {
   return source;
 }
 
+segment_t random_segment(Random& random) {
+  segment_t segment;
+  segment.id = random_int(random, 0, 100);
+  segment.object = random_int(random, -1, 100);
+  segment.num_points = random_int(random, 0, 10'000);
+  fill(random, segment.centroid);
+  fill(random, segment.normal);
+  fill(random, segment.major_axis);
+  segment.num_candidates = random_int(random, 0, 1000);
+  segment.num_handles = random_int(random, 0, 1000);
+  segment.reason = random_text(random);
+  segment.failures = random_reasons(random);
+  segment.num_failures = static_cast<std::int32_t>(segment.failures.size());
+  return segment;
+}
+
 /// Each behind the one before, with gaps; returns the size of a point.
 std::int32_t lay_out(Random& random, std::vector<point_field_t>& fields) {
   constexpr std::int32_t kSizes[] = {0, 1, 1, 2, 2, 4, 4, 4, 8};
@@ -201,6 +217,40 @@ control_t random_control(Random& random) {
   control.command = static_cast<std::int8_t>(random_int(random, control_t::RELOAD, control_t::RESET));
   control.text = random_text(random);
   return control;
+}
+
+segmentation_t random_segmentation(Random& random) {
+  segmentation_t segmentation;
+  segmentation.utime = static_cast<std::int64_t>(random());
+  segmentation.seq = static_cast<std::int64_t>(random());
+  segmentation.source_channel = random_text(random);
+  segmentation.frame_name = random_text(random);
+  segmentation.config_revision = static_cast<std::int64_t>(random());
+  segmentation.voxel_size = random_double(random);
+  fill(random, segmentation.origin);
+  segmentation.step = random_double(random);
+  fill(random, segmentation.support_plane);
+  for (int i = random_int(random, 0, 3); i > 0; --i) segmentation.segments.push_back(random_segment(random));
+  segmentation.num_segments = static_cast<std::int32_t>(segmentation.segments.size());
+  segmentation.num_points = random_int(random, 0, 10);
+  segmentation.data_size = segmentation_t::POINT_BYTES * segmentation.num_points;
+  segmentation.data = random_data(random, static_cast<std::size_t>(segmentation.data_size));
+  for (std::size_t i = 0; i < segmentation.data.size(); i += segmentation_t::POINT_BYTES) {
+    const int segment = random_int(random, -1, segmentation.num_segments - 1);
+    segmentation.data[i + 6] = segmentation.data[i + 7] = 0xff;
+    if (segment < 0) continue;
+    segmentation.data[i + 6] = static_cast<std::uint8_t>(segment);
+    segmentation.data[i + 7] = 0;
+  }
+  return segmentation;
+}
+
+segmentation_request_t random_segmentation_request(Random& random) {
+  segmentation_request_t request;
+  request.utime = static_cast<std::int64_t>(random());
+  request.source_channel = random_text(random);
+  request.seconds = random_int(random, 1, 6000) / 100.0;
+  return request;
 }
 
 point_cloud_t small_point_cloud() {

@@ -13,6 +13,8 @@
 #include "graspd/depth_image_t.hpp"
 #include "graspd/handle_list_t.hpp"
 #include "graspd/point_cloud_t.hpp"
+#include "graspd/segmentation_request_t.hpp"
+#include "graspd/segmentation_t.hpp"
 #include "graspd/status_t.hpp"
 
 namespace graspd {
@@ -31,6 +33,8 @@ using Random = std::mt19937_64;
 [[nodiscard]] handle_list_t random_handle_list(Random& random);
 [[nodiscard]] status_t random_status(Random& random);
 [[nodiscard]] control_t random_control(Random& random);
+[[nodiscard]] segmentation_t random_segmentation(Random& random);
+[[nodiscard]] segmentation_request_t random_segmentation_request(Random& random);
 
 /// One point, to be spoilt.
 [[nodiscard]] point_cloud_t small_point_cloud();

@@ -17,6 +17,8 @@ TEST(WireLayout, FingerprintsAreTheGeneratedTypes) {
   EXPECT_EQ(kStatusFingerprint, static_cast<std::uint64_t>(status_t::getHash()));
   EXPECT_EQ(kSealedFingerprint, static_cast<std::uint64_t>(sealed_t::getHash()));
   EXPECT_EQ(kControlFingerprint, static_cast<std::uint64_t>(control_t::getHash()));
+  EXPECT_EQ(kSegmentationFingerprint, static_cast<std::uint64_t>(segmentation_t::getHash()));
+  EXPECT_EQ(kSegmentationRequestFingerprint, static_cast<std::uint64_t>(segmentation_request_t::getHash()));
 }
 
 TEST(WireLayout, FingerprintStartsEveryMessage) {
@@ -26,6 +28,9 @@ TEST(WireLayout, FingerprintStartsEveryMessage) {
   EXPECT_EQ(type_name(fingerprint(raw_bytes(random_handle_list(random))).value()), "handle_list_t");
   EXPECT_EQ(type_name(fingerprint(raw_bytes(random_status(random))).value()), "status_t");
   EXPECT_EQ(type_name(fingerprint(raw_bytes(random_control(random))).value()), "control_t");
+  EXPECT_EQ(type_name(fingerprint(raw_bytes(random_segmentation(random))).value()), "segmentation_t");
+  EXPECT_EQ(type_name(fingerprint(raw_bytes(random_segmentation_request(random))).value()),
+            "segmentation_request_t");
   EXPECT_EQ(type_name(0), "");
   EXPECT_EQ(fingerprint(Bytes(7)), std::nullopt);
 }
