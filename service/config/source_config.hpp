@@ -12,6 +12,7 @@
 #include "service/pipeline/config_fields.hpp"
 #include "service/pipeline/detect_config.hpp"
 #include "service/pipeline/gripper.hpp"
+#include "service/transport/cloud_input.hpp"
 
 namespace graspd {
 
@@ -96,6 +97,7 @@ struct SourceConfig {
   DegradeConfig degrade;
   GripperSetting gripper{"paper_80mm", Gripper{}};
   std::string sensor;
+  CloudInput input;
   SensorPose sensor_pose;
   DetectConfig
       detect;  ///< complete: the service's, then the sensor's, then the source's own; T_box_cloud is set
@@ -119,6 +121,7 @@ struct SourceConfig {
     v("gripper", self.gripper, Range{}, "name of a file in grippers/, or its path, or its keys");
     v("sensor", self.sensor, Range{},
       "name of a file in sensors/, or its path, with settings of the method for that sensor; empty: none");
+    v("input", self.input, "what messages of some types do not say themselves");
     v("sensor_pose", self.sensor_pose, "where the sensor is (extrinsics)");
     v("detect", self.detect, "what differs from detect: above, for this source");
   }

@@ -118,7 +118,7 @@ void Daemon::take(const std::shared_ptr<Stream>& stream, const Packet& packet) {
   job.message.segments_requested = requests_.wants(packet.channel, clock_.now());
   stream->health.received(job.message.header.seq, clock_.now());
   // Here already, so that what cannot be used never takes the place of a frame that can.
-  const auto refusal = bytes != nullptr ? check_cloud(*bytes, limits) : std::get<Refusal>(opened);
+  const auto refusal = bytes != nullptr ? job.processor->check(*bytes) : std::get<Refusal>(opened);
   if (refusal) {
     stream->gate.release(job.ticket, job.processor->refuse(*refusal, job.message.arrival));
     return;

@@ -71,6 +71,10 @@ Answer FrameProcessor::process(const FrameMessage& message, Effort effort,
   }
 }
 
+std::optional<Refusal> FrameProcessor::check(std::span<const std::byte> message) const {
+  return check_cloud(message, limits_, source_.input);
+}
+
 std::optional<Clock::TimePoint> FrameProcessor::deadline(const FrameMessage& message) const {
   if (source_.deadline_ms <= 0) return std::nullopt;
   return message.arrival + std::chrono::milliseconds(source_.deadline_ms);
@@ -83,7 +87,7 @@ Answer FrameProcessor::detect(const FrameMessage& message, Effort effort,
     timer.stage_done(stage);
     if (cancelled) throw Cancelled{};
   };
-  const std::variant<Frame, Refusal> decoded = decode_cloud(message.bytes, limits_);
+  const std::variant<Frame, Refusal> decoded = decode_cloud(message.bytes, limits_, source_.input);
   if (const auto* refusal = std::get_if<Refusal>(&decoded)) return refuse(*refusal, message.arrival);
   on_stage("decode");
   const Frame& frame = std::get<Frame>(decoded);

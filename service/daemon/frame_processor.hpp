@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,9 @@ class FrameProcessor {
   /// `revision` of the configuration.
   FrameProcessor(const SourceConfig& source, std::string channel, const DecodeLimits& limits,
                  const Clock& clock, std::int64_t revision);
+
+  /// What process() would refuse, as far as that can be told in microseconds.
+  [[nodiscard]] std::optional<Refusal> check(std::span<const std::byte> message) const;
 
   /// Exceptions from the frame become an answer FAILED. When `cancelled` becomes true the frame ends after
   /// the stage it is in, as dropped.

@@ -64,21 +64,40 @@ std::string_view ByteReader::text(const char* place, std::int32_t max_length) {
   return value;
 }
 
-std::int32_t ByteReader::count(const char* place, std::int32_t max_count, std::size_t min_element_bytes) {
-  const std::size_t start = offset_;
-  const std::int32_t value = int32(place);
+std::int64_t ByteReader::checked_count(const char* place, std::size_t start, std::int64_t value,
+                                       std::int64_t max_count, std::size_t min_element_bytes) {
   if (!ok()) return 0;
   if (value < 0 || value > max_count) {
     offset_ = start;
     fail(Failure::kBadLength, place, value, max_count);
     return 0;
   }
-  if (static_cast<std::size_t>(value) * min_element_bytes > remaining()) {
-    const auto needed = static_cast<std::int64_t>(value) * static_cast<std::int64_t>(min_element_bytes);
-    fail(Failure::kTruncated, place, static_cast<std::int64_t>(remaining()), needed);
+  // By division: the product of a count of eight bytes may not be a number.
+  if (static_cast<std::size_t>(value) > remaining() / min_element_bytes) {
+    fail(Failure::kTruncated, place, static_cast<std::int64_t>(remaining() / min_element_bytes), value);
     return 0;
   }
   return value;
+}
+
+std::int32_t ByteReader::count(const char* place, std::int32_t max_count, std::size_t min_element_bytes) {
+  const std::size_t start = offset_;
+  const std::int32_t value = int32(place);
+  return static_cast<std::int32_t>(checked_count(place, start, value, max_count, min_element_bytes));
+}
+
+std::size_t ByteReader::byte_count16(const char* place) {
+  const std::size_t start = offset_;
+  const std::int16_t value = int16(place);
+  return static_cast<std::size_t>(
+      checked_count(place, start, value, std::numeric_limits<std::int16_t>::max(), 1));
+}
+
+std::size_t ByteReader::byte_count64(const char* place) {
+  const std::size_t start = offset_;
+  const std::int64_t value = int64(place);
+  return static_cast<std::size_t>(
+      checked_count(place, start, value, std::numeric_limits<std::int64_t>::max(), 1));
 }
 
 void ByteReader::finish() {

@@ -28,6 +28,7 @@ class ByteReader {
   explicit ByteReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
 
   std::int8_t int8(const char* place) { return static_cast<std::int8_t>(integer<std::uint8_t>(place)); }
+  std::int16_t int16(const char* place) { return static_cast<std::int16_t>(integer<std::uint16_t>(place)); }
   std::int32_t int32(const char* place) { return static_cast<std::int32_t>(integer<std::uint32_t>(place)); }
   std::int64_t int64(const char* place) { return static_cast<std::int64_t>(integer<std::uint64_t>(place)); }
   double float64(const char* place) { return std::bit_cast<double>(integer<std::uint64_t>(place)); }
@@ -43,6 +44,9 @@ class ByteReader {
   /// negative, more than max_count, or more than the bytes that are left can hold. What succeeds is safe to
   /// allocate for.
   std::int32_t count(const char* place, std::int32_t max_count, std::size_t min_element_bytes);
+  /// The same for counts that take two and eight bytes, of single bytes.
+  std::size_t byte_count16(const char* place);
+  std::size_t byte_count64(const char* place);
 
   /// A view of the next bytes.
   std::span<const std::byte> bytes(const char* place, std::size_t size);
@@ -67,6 +71,8 @@ class ByteReader {
     for (const std::byte b : view) value = static_cast<Unsigned>((value << 8) | static_cast<Unsigned>(b));
     return value;
   }
+  std::int64_t checked_count(const char* place, std::size_t start, std::int64_t value, std::int64_t max_count,
+                             std::size_t min_element_bytes);
   void fail(Failure failure, const char* place, std::int64_t got, std::int64_t expected);
 
   std::span<const std::byte> bytes_;

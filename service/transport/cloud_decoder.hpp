@@ -7,19 +7,23 @@
 #include <span>
 #include <variant>
 
+#include "service/transport/cloud_input.hpp"
 #include "service/transport/frame.hpp"
 #include "service/transport/refusal.hpp"
 
 namespace graspd {
 
-/// Tells the type by its fingerprint. Trusts nothing in the bytes; throws nothing but std::bad_alloc, and
-/// allocates no more than the limits allow. A frame of zero points is a frame.
+/// Tells the type by its fingerprint, ours and those of others that lcmtypes/README.md lists. Trusts nothing
+/// in the bytes; throws nothing but std::bad_alloc, and allocates no more than the limits allow. A frame of
+/// zero points is a frame.
 [[nodiscard]] std::variant<Frame, Refusal> decode_cloud(std::span<const std::byte> message,
-                                                        const DecodeLimits& limits);
+                                                        const DecodeLimits& limits,
+                                                        const CloudInput& input = {});
 
-/// What decode_cloud would refuse, without the work of it: microseconds for any size.
+/// What decode_cloud would refuse, without the work of it: microseconds for any size. What is wrong inside
+/// compressed data only decoding can tell.
 [[nodiscard]] std::optional<Refusal> check_cloud(std::span<const std::byte> message,
-                                                 const DecodeLimits& limits);
+                                                 const DecodeLimits& limits, const CloudInput& input = {});
 
 /// The header alone, for messages that are answered without being decoded; defaults from the first member
 /// that cannot be read on.

@@ -19,12 +19,20 @@ inline constexpr std::uint64_t kControlFingerprint = 0x1a187596f91f8882;
 inline constexpr std::uint64_t kSealedFingerprint = 0xa70cb71154832893;
 inline constexpr std::uint64_t kSegmentationFingerprint = 0xbb512cf7d3d00ed5;
 inline constexpr std::uint64_t kSegmentationRequestFingerprint = 0x59367a3b2c1bd887;
+
+/// Of types of others that clouds come in, too (lcmtypes/README.md).
+inline constexpr std::uint64_t kLcmtPointCloudFingerprint = 0x17f2c128b5d25a95;
+inline constexpr std::uint64_t kPointcloud2Fingerprint = 0x0bcd5ce4bf5a1b4a;
+inline constexpr std::uint64_t kPointcloudFingerprint = 0x0d89dc76eb295069;
+inline constexpr std::uint64_t kSensorMsgsPointCloud2Fingerprint = 0xf5eb3da1c2853175;
+
 inline constexpr std::size_t kFingerprintBytes = 8;
 
 /// Values of point_field_t.datatype.
 inline constexpr std::int8_t kFirstDatatype = 1;
 inline constexpr std::int8_t kFloat32 = 7;
-inline constexpr std::int8_t kLastDatatype = 8;
+inline constexpr std::int8_t kFloat64 = 8;
+inline constexpr std::int8_t kLastDatatype = kFloat64;
 
 /// Bytes of one value of a datatype; 0 for none of them.
 [[nodiscard]] constexpr std::size_t datatype_size(std::int8_t datatype) {

@@ -8,12 +8,14 @@ What the fuzzers put in front themselves (fingerprints) is left out.
 import pathlib
 import struct
 import sys
+from types import SimpleNamespace
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "integration"))
 from lcm_types import load_types  # noqa: E402
 
 TYPES = load_types()
+FOREIGN = load_types(HERE.parent / "cross_language/foreign_types")
 ROOT = HERE.parents[1]
 
 
@@ -60,6 +62,36 @@ def detect_seeds():
     depths = [0 if i % 16 == 2 else 560 if 5 <= i % 16 < 11 and 4 <= i // 16 < 10 else 600 for i in range(16 * 14)]
     write("detect", "image_box_on_table", b"\1" + depth_image(depths, 16))
     write("detect", "image_steps", b"\3" + depth_image([500 + 4 * (i // 16) for i in range(16 * 14)], 16))
+
+
+def foreign_seeds():
+    """Two points each: big-endian float64 behind another field in two rows, little-endian float32 in one."""
+    def fields(datatype, place, start=0, **more):
+        size = {7: 4, 8: 8}[datatype]
+        return [SimpleNamespace(name=n, datatype=datatype, count=1, **{place: start + size * i}, **more)
+                for i, n in enumerate("xyz")]
+    big = b"".join(b"\7" + struct.pack(">ddd", 1, 2, 3) + b"--" for _ in range(2))
+    little = struct.pack("<ffffff", 1, 2, 3, 0, 0, 0)
+    drake, dimos = FOREIGN["lcmt_point_cloud"], FOREIGN["PointCloud2"]
+    bot_core, bare = FOREIGN["pointcloud2_t"], FOREIGN["pointcloud_t"]
+    one = dict(utime=1, frame_name="f", num_fields=3, filler_size=1, filler=b"x")
+    header = SimpleNamespace(seq=2, stamp=SimpleNamespace(sec=1, nsec=2000), frame_id="f")
+    seeds = {
+        "drake_big": (0, drake.encode(**one, width=1, height=2, fields=fields(8, "byte_offset", 1), flags=1, point_step=25,
+                                      row_step=27, data_size=len(big), data=big)),
+        "drake_little": (0, drake.encode(**one, width=2, height=1, fields=fields(7, "byte_offset"), flags=2, point_step=12,
+                                         row_step=0, data_size=24, data=little)),
+        "bot_core": (1, bot_core.encode(utime=1, seq=2, frame_id="f", height=2, width=1, nfields=3,
+                                        fields=fields(8, "offset", 1), is_bigendian=1, point_step=25, row_step=27,
+                                        data_nbytes=len(big), data=big, is_dense=0)),
+        "bare": (2, bare.encode(utime=1, seq=2, frame_id="f", n_points=2, points=[[1, 2, 3], [0, 0, 0]], n_channels=1,
+                                channel_names=["r"], channels=[[1, 2]])),
+        "dimos": (3, dimos.encode(fields_length=3, data_length=24, header=header, height=1, width=2,
+                                  fields=fields(7, "offset"), is_bigendian=0, point_step=12, row_step=24, data=little,
+                                  is_dense=1)),
+    }
+    for name, (kind, message) in seeds.items():
+        write("foreign_cloud", name, bytes([kind]) + message[8:])
 
 
 def config_seeds():
@@ -174,7 +206,7 @@ def segmentation_seeds():
 
 
 def main():
-    for seeds in (detect_seeds, config_seeds, pcd_seeds, ply_seeds, log_seeds, seal_seeds, segmentation_seeds):
+    for seeds in (detect_seeds, foreign_seeds, config_seeds, pcd_seeds, ply_seeds, log_seeds, seal_seeds, segmentation_seeds):
         seeds()
 
 

@@ -24,8 +24,17 @@ def _hash_string(value, text):
     return value
 
 
+def _elements(value, dimensions):
+    """The single values of an array, in their order."""
+    if dimensions == 0:
+        yield value
+    else:
+        for part in value:
+            yield from _elements(part, dimensions - 1)
+
+
 class Type:
-    """One struct: members as (type, name, dimensions), constants as a dictionary."""
+    """One struct: members as (type, name, dimensions), constants as a dictionary. Decodes one dimension, encodes any."""
 
     def __init__(self, text, registry):
         text = re.sub(r"//[^\n]*|/\*.*?\*/", "", text, flags=re.DOTALL)
@@ -40,6 +49,7 @@ class Type:
                     self.constants[key.strip()] = int(value, 0)
                 continue
             kind, names = statement.split(None, 1)
+            kind = kind.split(".")[-1]  # a struct of another package
             for name in names.split(","):
                 dimensions = re.findall(r"\[\s*(\w+)\s*\]", name)
                 self.members.append((kind, name.split("[")[0].strip(), dimensions))
@@ -81,7 +91,7 @@ class Type:
             if kind in ("byte",) and dimensions:
                 out.append(bytes(value))
             else:
-                out.extend(self._encode_one(kind, v) for v in (value if dimensions else [value]))
+                out.extend(self._encode_one(kind, v) for v in _elements(value, len(dimensions)))
         return b"".join(out)
 
     def _encode_one(self, kind, value):

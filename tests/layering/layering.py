@@ -36,8 +36,8 @@ OWN = {
         "service/pipeline/handle_check.hpp",
         "service/pipeline/point_cloud.hpp",
     },
-    # The decoder's limits are settings like the pipeline's.
-    "service/config": {"service/pipeline", "service/transport/refusal.hpp"},
+    # The decoders' limits and what they cannot read from a message are settings like the pipeline's.
+    "service/config": {"service/pipeline", "service/transport/cloud_input.hpp", "service/transport/refusal.hpp"},
     "service/daemon": {"lcmtypes", "service/config", "service/transport", "service/runtime", "service/pipeline"},
     # graspd-detect reads the daemon's configuration, so that both find the same handles.
     "client": {"lcmtypes", "service/transport", "service/pipeline", "service/config"},

@@ -4,7 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include "bot_core/pointcloud2_t.hpp"
+#include "bot_core/pointcloud_t.hpp"
+#include "drake/lcmt_point_cloud.hpp"
 #include "graspd/sealed_t.hpp"
+#include "sensor_msgs/PointCloud2.hpp"
 #include "tests/unit/transport/message_samples.hpp"
 
 namespace graspd {
@@ -19,6 +23,14 @@ TEST(WireLayout, FingerprintsAreTheGeneratedTypes) {
   EXPECT_EQ(kControlFingerprint, static_cast<std::uint64_t>(control_t::getHash()));
   EXPECT_EQ(kSegmentationFingerprint, static_cast<std::uint64_t>(segmentation_t::getHash()));
   EXPECT_EQ(kSegmentationRequestFingerprint, static_cast<std::uint64_t>(segmentation_request_t::getHash()));
+}
+
+TEST(WireLayout, FingerprintsOfOthersAreTheirGeneratedTypes) {
+  EXPECT_EQ(kLcmtPointCloudFingerprint, static_cast<std::uint64_t>(drake::lcmt_point_cloud::getHash()));
+  EXPECT_EQ(kPointcloud2Fingerprint, static_cast<std::uint64_t>(bot_core::pointcloud2_t::getHash()));
+  EXPECT_EQ(kPointcloudFingerprint, static_cast<std::uint64_t>(bot_core::pointcloud_t::getHash()));
+  EXPECT_EQ(kSensorMsgsPointCloud2Fingerprint,
+            static_cast<std::uint64_t>(sensor_msgs::PointCloud2::getHash()));
 }
 
 TEST(WireLayout, FingerprintStartsEveryMessage) {
