@@ -1,0 +1,117 @@
+# SPDX-FileCopyrightText: 2026 The graspd authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""graspd-bridge: what graspd-listen prints arrives over a WebSocket; settings and clouds go in with the token alone."""
+import json
+from array import array
+
+from harness import CLOUDS, HANDLES, GraspdTest, run_tests, wait_until
+from web_socket import Closed, WebSocket
+
+CONFIG = """
+lcm: {control_channel: GRASPD_CONTROL}
+sources:
+  - {name: camera, channel: GRASPD_CLOUD, policy: all, queue_length: 100}
+  - {name: browser, channel: BROWSER_CLOUD, handles_channel: BROWSER_HANDLES}
+"""
+
+
+class Bridge(GraspdTest):
+    def start_bridge(self, *arguments):
+        bridge = self.start_listening("graspd-bridge", "--port", 0, "--cloud-channel", "BROWSER_CLOUD", "--handles", ".*_HANDLES",
+                                      *arguments)
+        url = wait_until(lambda: bridge.lines(), "the bridge's address")[0]
+        self.assertRegex(url, r"^ws://127\.0\.0\.1:\d+/socket\?token=[0-9a-f]{32}$")
+        return bridge, url
+
+    def connect(self, url):
+        client = WebSocket(url)
+        self.addCleanup(client.close)
+        hello = json.loads(client.receive())
+        self.assertEqual(hello["type"], "hello")
+        return client, hello["may_write"]
+
+    @staticmethod
+    def receive(client, kind, condition=lambda message: True):
+        """The next message of a type that holds the condition."""
+        while True:
+            message = json.loads(client.receive())
+            if message["type"] == kind and condition(message):
+                return message
+
+    def test_every_list_as_graspd_listen_prints_it(self):
+        bus = self.open_bus()
+        self.start_daemon(bus, self.write_config(CONFIG))
+        listener = self.start_listening("graspd-listen", "--format", "json")
+        bridge, url = self.start_bridge()
+        client, may_write = self.connect(url.split("?")[0])
+        self.assertFalse(may_write)
+        self.receive(client, "status")  # it listens
+        self.run_program("graspd-simulate", "--width", 160, "--rate", 5, "--frames", 6)
+        texts = []
+        while len(texts) < 6:
+            text = client.receive()
+            if json.loads(text)["type"] == "handle_list":
+                texts.append(text)
+        lines = wait_until(lambda: listener.lines() if len(listener.lines()) >= 6 else None, "the listener's lines")
+        self.assertEqual(texts, [f'{{"type":"handle_list","channel":"{HANDLES}","message":{line}}}' for line in lines])
+        self.assertEqual(bridge.stop()[0], 0, bridge.err)
+
+    def test_settings_need_the_token(self):
+        bus = self.open_bus()
+        self.start_daemon(bus, self.write_config(CONFIG))
+        _, url = self.start_bridge()
+        command = json.dumps({"type": "control", "command": "set", "text": "sources: [{name: camera, detect: {ranking: {max_handles: 1}}}]"})
+        reader, may_write = self.connect(url.split("?")[0])
+        self.assertFalse(may_write)
+        reader.send(command)
+        self.assertIn("token", self.receive(reader, "refused")["why"])
+        writer, may_write = self.connect(url)
+        self.assertTrue(may_write)
+        writer.send(command)
+        number = self.receive(writer, "sent")["id"]
+        status = self.receive(writer, "status", lambda message: message["message"]["control_id"] == number)
+        self.assertEqual((status["message"]["config_revision"], status["message"]["config_error"]), (2, ""))
+        writer.send('{"type":"control","command":"undo"}')
+        number = self.receive(writer, "sent")["id"]
+        self.receive(writer, "status", lambda message: message["message"]["control_id"] == number)
+
+    def test_clouds_come_in_with_the_token(self):
+        bus = self.open_bus()
+        self.start_daemon(bus, self.write_config(CONFIG))
+        _, url = self.start_bridge()
+        self.run_program("graspd-simulate", "--width", 160, "--frames", 1)
+        answers = self.await_answers(bus, 1)
+        cloud = bus.on(CLOUDS)[0]
+        reader, _ = self.connect(url.split("?")[0])
+        reader.send(cloud[:60000])
+        self.assertIn("token", self.receive(reader, "refused")["why"])
+        writer, _ = self.connect(url)
+        writer.send(cloud)
+        answer = self.receive(writer, "handle_list", lambda message: message["channel"] == "BROWSER_HANDLES")["message"]
+        self.assertEqual(len(answer["handles"]), answers[0].num_handles)
+        self.assertEqual([array("f", handle["position"]) for handle in answer["handles"]],
+                         [array("f", handle.position) for handle in answers[0].handles])
+
+    def test_nonsense_is_refused_and_nothing_else(self):
+        bus = self.open_bus()
+        self.start_daemon(bus, self.write_config(CONFIG))
+        bridge, url = self.start_bridge()
+        client, _ = self.connect(url)
+        for message in ("", "{", "[" * 50000, '{"type":"control","command":"set"}', b"", b"\0" * 8, b"\xff" * 100000):
+            client.send(message)
+            self.receive(client, "refused")
+        bus.publish(HANDLES, b"no list")
+        self.receive(client, "status")
+        self.assertEqual(bridge.stop()[0], 0, bridge.err)
+        self.assertIn("1 invalid messages", bridge.err)
+        with self.assertRaises((Closed, OSError)):
+            WebSocket(url)
+
+    def test_other_addresses_need_a_token_of_ones_own(self):
+        program = self.run_program("graspd-bridge", "--port", 0, "--address", "0.0.0.0", code=1)
+        self.assertIn("token", program.err)
+        self.assertEqual(program.out, "")
+
+
+if __name__ == "__main__":
+    run_tests()
