@@ -51,7 +51,7 @@ void FramePublisher::send_depth(const FrameHeader& header, const Pinhole& camera
 
 void FramePublisher::send(std::span<const std::byte> bytes) {
   if (sealer_) bytes = sealer_->seal(channel_, bytes, wall_clock_us());
-  if (!bus_.publish(channel_, bytes)) {
+  if (!send_(channel_, bytes)) {
     throw std::runtime_error(
         printed("a message of %zu bytes on %s could not be sent", bytes.size(), channel_.c_str()));
   }

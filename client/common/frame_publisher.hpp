@@ -5,9 +5,11 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "client/common/cloud_file.hpp"
 #include "client/common/pinhole.hpp"
@@ -40,7 +42,14 @@ class Pacer {
 
 class FramePublisher {
  public:
-  FramePublisher(LcmBus& bus, std::string channel) : bus_(bus), channel_(std::move(channel)) {}
+  /// Takes a message on its way; false: it could not be sent.
+  using Send = std::function<bool(const std::string& channel, std::span<const std::byte> bytes)>;
+
+  FramePublisher(Send send, std::string channel) : send_(std::move(send)), channel_(std::move(channel)) {}
+  FramePublisher(LcmBus& bus, std::string channel)
+      : FramePublisher([&bus](const std::string& name,
+                              std::span<const std::byte> bytes) { return bus.publish(name, bytes); },
+                       std::move(channel)) {}
 
   /// Sealed with the first key of a file from now on. Throws std::runtime_error when there is none.
   void sign_with(const std::filesystem::path& key_file);
@@ -60,7 +69,7 @@ class FramePublisher {
  private:
   void send(std::span<const std::byte> bytes);
 
-  LcmBus& bus_;
+  Send send_;
   std::string channel_;
   std::optional<Sealer> sealer_;
   std::int64_t frames_ = 0;

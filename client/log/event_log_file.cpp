@@ -39,6 +39,18 @@ EventLogFile::EventLogFile(std::filesystem::path path, Existing existing) : path
   if (file_ < 0) fail(path_, "the log cannot be created", errno);
 }
 
+EventLogFile::EventLogFile(std::filesystem::path path, std::int64_t size, std::int64_t events)
+    : path_(std::move(path)), size_(size), events_(events) {
+  file_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
+  if (file_ < 0) fail(path_, "the log cannot be continued", errno);
+  const off_t there = ::lseek(file_, 0, SEEK_END);
+  if (there < size || ::ftruncate(file_, size) != 0 || ::lseek(file_, size, SEEK_SET) != size) {
+    const int error = there < size ? EINVAL : errno;
+    ::close(file_);
+    fail(path_, there < size ? "the log is shorter than it was" : "the log cannot be continued", error);
+  }
+}
+
 EventLogFile::~EventLogFile() {
   ::close(file_);
 }
@@ -68,6 +80,10 @@ void EventLogFile::write(std::int64_t recv_utime, std::string_view channel,
   }
   size_ += static_cast<std::int64_t>(buffer_.size());
   ++events_;
+}
+
+void EventLogFile::sync() {
+  if (::fdatasync(file_) != 0) fail(path_, "the log cannot be written", errno);
 }
 
 }  // namespace graspd

@@ -27,6 +27,10 @@ class EventLogFile {
 
   /// Throws EventLogError when the file cannot be created, or exists and must not.
   EventLogFile(std::filesystem::path path, Existing existing);
+
+  /// Goes on with a file behind its first `size` bytes, which hold so many events; what follows them is cut
+  /// off. Throws EventLogError when the file is shorter or cannot be written.
+  EventLogFile(std::filesystem::path path, std::int64_t size, std::int64_t events);
   ~EventLogFile();
   EventLogFile(const EventLogFile&) = delete;
   EventLogFile& operator=(const EventLogFile&) = delete;
@@ -34,7 +38,11 @@ class EventLogFile {
   /// Throws EventLogError when the event cannot be written; the file then ends with the event before.
   void write(std::int64_t recv_utime, std::string_view channel, std::span<const std::byte> bytes);
 
+  /// Waits until all events are on the disk. Throws EventLogError.
+  void sync();
+
   [[nodiscard]] std::int64_t size() const { return size_; }
+  [[nodiscard]] std::int64_t events() const { return events_; }
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
  private:

@@ -47,7 +47,7 @@ std::optional<Header> parse_header(std::span<const char> bytes) {
 
 }  // namespace
 
-EventLogReader::EventLogReader(std::filesystem::path path) : path_(std::move(path)) {
+EventLogReader::EventLogReader(std::filesystem::path path, const Part& part) : path_(std::move(path)) {
   std::error_code error;
   const auto size = std::filesystem::file_size(path_, error);
   if (error) throw EventLogError(path_.string() + ": the log cannot be read: " + error.message());
@@ -55,11 +55,13 @@ EventLogReader::EventLogReader(std::filesystem::path path) : path_(std::move(pat
   file_.open(path_, std::ios::binary);
   if (!file_) throw EventLogError(path_.string() + ": the log cannot be read: " + std::strerror(errno));
   size_ = static_cast<std::int64_t>(size);
+  end_ = std::clamp<std::int64_t>(part.end, 0, size_);
+  position_ = std::clamp<std::int64_t>(part.begin, 0, end_);
 }
 
 bool EventLogReader::find_event() {
   std::array<char, 4096> chunk{};
-  while (true) {
+  while (position_ < end_) {
     file_.clear();
     file_.seekg(position_);
     file_.read(chunk.data(), std::ssize(chunk));
@@ -69,19 +71,30 @@ bool EventLogReader::find_event() {
     for (std::size_t i = 0; i + kHeaderBytes <= size; ++i) {
       const auto header = parse_header(std::span(chunk).subspan(i, kHeaderBytes));
       const std::int64_t start = position_ + static_cast<std::int64_t>(i);
+      if (start >= end_) return false;
       if (!header || start + header->event_bytes() > size_) continue;
       position_ = start;
       return true;
     }
     position_ += static_cast<std::int64_t>(size - kHeaderBytes + 1);
   }
+  return false;
 }
 
 bool EventLogReader::next(LoggedEvent& event) {
+  EventHead head;
+  if (!next_head(head)) return false;
+  event.recv_utime = head.recv_utime;
+  event.channel = std::move(head.channel);
+  read_message(event.bytes);
+  return true;
+}
+
+bool EventLogReader::next_head(EventHead& head) {
   const std::int64_t expected = position_;
   if (!find_event()) {
-    skipped_bytes_ += size_ - expected;
-    position_ = size_;
+    skipped_bytes_ += std::max<std::int64_t>(end_ - expected, 0);
+    position_ = std::max(end_, expected);
     return false;
   }
   skipped_bytes_ += position_ - expected;
@@ -91,14 +104,23 @@ bool EventLogReader::next(LoggedEvent& event) {
   file_.read(bytes.data(), std::ssize(bytes));
   const auto header = parse_header(bytes);
   if (!header) throw EventLogError(path_.string() + ": the log cannot be read: it changes meanwhile");
-  event.recv_utime = header->recv_utime;
-  event.channel.resize(static_cast<std::size_t>(header->channel));
-  event.bytes.resize(static_cast<std::size_t>(header->data));
-  file_.read(event.channel.data(), std::ssize(event.channel));
-  file_.read(reinterpret_cast<char*>(event.bytes.data()), std::ssize(event.bytes));
+  head.recv_utime = header->recv_utime;
+  head.channel.resize(static_cast<std::size_t>(header->channel));
+  file_.read(head.channel.data(), std::ssize(head.channel));
   if (!file_) throw EventLogError(path_.string() + ": the log cannot be read: " + std::strerror(errno));
+  head.position = position_;
+  head.size = header->data;
+  message_size_ = header->data;
   position_ += header->event_bytes();
   return true;
+}
+
+void EventLogReader::read_message(std::vector<std::byte>& bytes) {
+  bytes.resize(static_cast<std::size_t>(message_size_));
+  file_.clear();
+  file_.seekg(position_ - message_size_);
+  file_.read(reinterpret_cast<char*>(bytes.data()), std::ssize(bytes));
+  if (!file_) throw EventLogError(path_.string() + ": the log cannot be read: " + std::strerror(errno));
 }
 
 bool is_event_log(const std::filesystem::path& path) {

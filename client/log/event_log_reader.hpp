@@ -7,12 +7,22 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "client/log/event_log_file.hpp"
 
 namespace graspd {
+
+/// An event without its bytes.
+struct EventHead {
+  std::int64_t recv_utime = 0;  ///< [us] since 1970
+  std::string channel;
+  std::int64_t size = 0;      ///< of its message [bytes]
+  std::int64_t position = 0;  ///< of the event in the file [bytes]
+};
 
 struct LoggedEvent {
   std::int64_t recv_utime = 0;  ///< [us] since 1970
@@ -26,11 +36,27 @@ struct LoggedEvent {
 class EventLogReader {
  public:
   /// Throws EventLogError when the file cannot be read.
-  explicit EventLogReader(std::filesystem::path path);
+  explicit EventLogReader(std::filesystem::path path) : EventLogReader(std::move(path), {}) {}
 
-  /// False at the end of the file.
+  /// A part of a file [bytes]: the events that start in it. One that begins at an event's start gives the
+  /// same events as reading from the start of the file would.
+  struct Part {
+    std::int64_t begin = 0;
+    std::int64_t end = std::numeric_limits<std::int64_t>::max();  ///< one past the last
+  };
+  EventLogReader(std::filesystem::path path, const Part& part);
+
+  /// False at the end of the file, or of the part.
   [[nodiscard]] bool next(LoggedEvent& event);
 
+  /// As next(), without reading the message; read_message() does, until the next event is asked for.
+  [[nodiscard]] bool next_head(EventHead& head);
+  void read_message(std::vector<std::byte>& bytes);
+
+  /// Where the next event is looked for: after the last one, at the end of the part behind the last.
+  [[nodiscard]] std::int64_t position() const { return position_; }
+  /// Of the file [bytes].
+  [[nodiscard]] std::int64_t size() const { return size_; }
   [[nodiscard]] std::int64_t skipped_bytes() const { return skipped_bytes_; }
 
  private:
@@ -40,7 +66,9 @@ class EventLogReader {
   std::filesystem::path path_;
   std::ifstream file_;
   std::int64_t size_ = 0;
-  std::int64_t position_ = 0;  // where the next event is looked for
+  std::int64_t end_ = 0;           // no event starts here or later
+  std::int64_t position_ = 0;      // where the next event is looked for
+  std::int64_t message_size_ = 0;  // of the last event [bytes]; it ends at position_
   std::int64_t skipped_bytes_ = 0;
 };
 

@@ -3,6 +3,7 @@
 // graspd-simulate: a simulated depth camera over cluttered scenes with known objects.
 #include <unistd.h>
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -13,6 +14,7 @@
 #include "client/common/program.hpp"
 #include "client/common/stop_flag.hpp"
 #include "client/common/text.hpp"
+#include "client/log/recorder.hpp"
 #include "client/simulate/simulation.hpp"
 #include "client/simulate/truth_file.hpp"
 
@@ -27,6 +29,8 @@ struct Options {
   std::string scene = "table";
   std::string sensor = "kinect";
   std::string output;
+  std::string log;
+  double log_part_mb = 0;
   std::string truth;
   std::string key_file;
   int width = 640;
@@ -60,7 +64,7 @@ void add_options(CLI::App& app, Options& o) {
   app.add_option("-r,--rate", o.rate_hz, "frames a second; 0: as fast as it can")
       ->check(CLI::Range(0.0, 1000.0))
       ->capture_default_str();
-  app.add_option("--frames", o.frames, "stop after so many; 0: never (10 with --output)")
+  app.add_option("--frames", o.frames, "stop after so many; 0: never (10 with --output or --log)")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   app.add_option("--new-scene-every", o.simulation.new_scene_every, "frames until the next scene; 0: never")
@@ -80,10 +84,24 @@ void add_options(CLI::App& app, Options& o) {
                  "of the image [pixels]; its height is 3/4 of that, its field of view the same")
       ->check(CLI::Range(64, 1920))
       ->capture_default_str();
-  app.add_option("--key", o.key_file, "sign with the first key of this file (see graspd-keygen)");
+}
+
+void add_output_options(CLI::App& app, Options& o) {
+  auto* key = app.add_option("--key", o.key_file, "sign with the first key of this file (see graspd-keygen)");
   app.add_option("--truth", o.truth,
                  "write what is published into this file: the objects' points, as JSON lines");
-  app.add_option("-o,--output", o.output, "write labelled PCD files into this folder instead of publishing");
+  auto* output = app.add_option("-o,--output", o.output,
+                                "write labelled PCD files into this folder instead of publishing");
+  auto* log =
+      app.add_option("--log", o.log,
+                     "write an LCM event log instead of publishing, as fast as it can; times in it follow "
+                     "--rate, from a fixed start")
+          ->excludes(key)
+          ->excludes(output);
+  app.add_option("--log-part", o.log_part_mb,
+                 "logs FILE.00, FILE.01, ... of at most so many megabytes; 0: one log FILE")
+      ->check(CLI::NonNegativeNumber)
+      ->needs(log);
 }
 
 SimulationConfig simulation_config(const Options& o) {
@@ -116,12 +134,19 @@ int write_files(const CLI::App& app, const Options& o, Simulation& simulation) {
   return kExitOk;
 }
 
+void send(FramePublisher& publisher, const Options& o, const FrameHeader& header, const DepthFrame& frame) {
+  constexpr double kDepthScale = 0.001;
+  if (*message_type(o.type) == MessageType::kCloud) {
+    publisher.send_cloud(header, to_cloud(frame));
+  } else {
+    publisher.send_depth(header, frame.camera, frame.depth_m, kDepthScale);
+  }
+}
+
 int publish(const CLI::App& app, const Options& o, Simulation& simulation) {
   LcmBus bus(resolve_lcm_url(o.lcm_url));
   FramePublisher publisher(bus, o.channel);
   if (!o.key_file.empty()) publisher.sign_with(o.key_file);
-  const MessageType type = *message_type(o.type);
-  constexpr double kDepthScale = 0.001;
   Pacer pacer(o.rate_hz);
   std::optional<TruthFile> truth;
   if (!o.truth.empty()) truth.emplace(o.truth);
@@ -130,12 +155,33 @@ int publish(const CLI::App& app, const Options& o, Simulation& simulation) {
     const DepthFrame frame = simulation.frame(k);
     if (!pacer.next()) break;
     if (truth) truth->write(k, frame);
-    const FrameHeader header{wall_clock_us(), k, o.frame_name};
-    if (type == MessageType::kCloud) {
-      publisher.send_cloud(header, to_cloud(frame));
-    } else {
-      publisher.send_depth(header, frame.camera, frame.depth_m, kDepthScale);
-    }
+    send(publisher, o, {wall_clock_us(), k, o.frame_name}, frame);
+  }
+  say(app, publisher.summary());
+  return kExitOk;
+}
+
+/// As if graspd-log had recorded what publish() sends, with times that depend on the rate alone.
+int write_log(const CLI::App& app, const Options& o, Simulation& simulation) {
+  constexpr std::int64_t kStartUtime = 1'700'000'000'000'000;
+  const double rate_hz = o.rate_hz > 0 ? o.rate_hz : 15;
+  Recorder recorder(
+      {o.log, static_cast<std::int64_t>(1e6 * o.log_part_mb), 0, EventLogFile::Existing::kRefuse});
+  std::int64_t utime = kStartUtime;
+  FramePublisher publisher(
+      [&](const std::string& channel, std::span<const std::byte> bytes) {
+        recorder.record(utime, channel, bytes);
+        return true;
+      },
+      o.channel);
+  std::optional<TruthFile> truth;
+  if (!o.truth.empty()) truth.emplace(o.truth);
+  const std::int64_t frames = o.frames > 0 ? o.frames : 10;
+  for (std::int64_t k = 0; k < frames && !stop_requested(); ++k) {
+    utime = kStartUtime + std::llround(1e6 * static_cast<double>(k) / rate_hz);
+    const DepthFrame frame = simulation.frame(k);
+    if (truth) truth->write(k, frame);
+    send(publisher, o, {utime, k, o.frame_name}, frame);
   }
   say(app, publisher.summary());
   return kExitOk;
@@ -150,8 +196,10 @@ int main(int argc, char** argv) {
                "graspd-simulate");
   Options options;
   add_options(app, options);
+  add_output_options(app, options);
   return run_program(app, argc, argv, [&] {
     Simulation simulation(simulation_config(options));
+    if (!options.log.empty()) return write_log(app, options, simulation);
     return options.output.empty() ? publish(app, options, simulation) : write_files(app, options, simulation);
   });
 }

@@ -137,6 +137,21 @@ bool matches_channel(const std::string& channel_regex, const std::string& channe
   return std::regex_match(channel, std::regex(channel_regex));
 }
 
+std::size_t first_source(const ServiceConfig& config, const std::string& channel) {
+  const auto found =
+      std::find_if(config.sources.begin(), config.sources.end(),
+                   [&](const SourceConfig& source) { return matches_channel(source.channel, channel); });
+  return static_cast<std::size_t>(found - config.sources.begin());
+}
+
+bool is_own_channel(const ServiceConfig& config, std::string_view channel) {
+  const LcmConfig& lcm = config.lcm;
+  return channel == lcm.status_channel || channel == lcm.control_channel || channel == lcm.request_channel ||
+         std::any_of(config.sources.begin(), config.sources.end(), [&](const SourceConfig& source) {
+           return source.handles_channel == channel || source.segments_channel == channel;
+         });
+}
+
 bool is_plain_channel(std::string_view channel_regex) {
   return channel_regex.find_first_of(R"(\^$.|?*+()[]{})") == std::string_view::npos;
 }

@@ -165,6 +165,12 @@ inline constexpr std::size_t kMaxOverridesBytes = 16'383;
 /// match.
 [[nodiscard]] bool matches_channel(const std::string& channel_regex, const std::string& channel);
 
+/// The first source that messages on this channel go to, as an index; as many as there are sources: none.
+[[nodiscard]] std::size_t first_source(const ServiceConfig& config, const std::string& channel);
+
+/// Whether the daemon itself publishes, or obeys, on this channel.
+[[nodiscard]] bool is_own_channel(const ServiceConfig& config, std::string_view channel);
+
 /// Whether the expression is one channel's name and nothing more.
 [[nodiscard]] bool is_plain_channel(std::string_view channel_regex);
 

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/daemon/stream_table.hpp"
 
-#include <algorithm>
-#include <functional>
 #include <utility>
 
 namespace graspd {
@@ -24,11 +22,13 @@ std::vector<Job> StreamTable::configure(std::shared_ptr<const ServiceConfig> con
   revision_ = revision;
   std::vector<Job> dropped = forget_unknown();
   for (const auto& stream : streams_)
-    for (Job& job : set_up(*stream, first_match(stream->channel))) dropped.push_back(std::move(job));
+    for (Job& job : set_up(*stream, first_source(*config_, stream->channel)))
+      dropped.push_back(std::move(job));
   for (std::size_t i = 0; i < config_->sources.size(); ++i) {
     const std::string& channel = config_->sources[i].channel;
     // Seen in the status from the start, message or none.
-    if (is_plain_channel(channel) && !by_channel_.contains(channel)) add(first_match(channel), channel);
+    if (is_plain_channel(channel) && !by_channel_.contains(channel))
+      add(first_source(*config_, channel), channel);
   }
   return dropped;
 }
@@ -37,8 +37,8 @@ std::shared_ptr<Stream> StreamTable::find(const std::string& subscription, std::
   if (const auto found = by_channel_.find(channel); found != by_channel_.end())
     return found->second->subscription == subscription ? found->second : nullptr;
   const std::string name(channel);
-  if (is_own(name)) return nullptr;
-  const std::size_t source = first_match(name);
+  if (is_own_channel(*config_, name)) return nullptr;
+  const std::size_t source = first_source(*config_, name);
   const auto& sources = config_->sources;
   // Another source's subscription brings the same message.
   if (source == sources.size() || sources[source].channel != subscription) return nullptr;
@@ -85,7 +85,7 @@ std::vector<Job> StreamTable::set_up(Stream& stream, std::size_t source) {
 std::vector<Job> StreamTable::forget_unknown() {
   std::vector<Job> dropped;
   std::erase_if(streams_, [&](const std::shared_ptr<Stream>& stream) {
-    if (first_match(stream->channel) < config_->sources.size()) return false;
+    if (first_source(*config_, stream->channel) < config_->sources.size()) return false;
     log_.info("channel_forgotten", {{"channel", stream->channel}});
     while (auto job = queue_.drop_oldest(stream->queue)) dropped.push_back(std::move(*job));
     free_queues_.push_back(stream->queue);
@@ -93,22 +93,6 @@ std::vector<Job> StreamTable::forget_unknown() {
     return true;
   });
   return dropped;
-}
-
-std::size_t StreamTable::first_match(const std::string& channel) const {
-  const auto& sources = config_->sources;
-  const auto found = std::find_if(sources.begin(), sources.end(), [&](const SourceConfig& source) {
-    return matches_channel(source.channel, channel);
-  });
-  return static_cast<std::size_t>(found - sources.begin());
-}
-
-bool StreamTable::is_own(const std::string& channel) const {
-  const LcmConfig& lcm = config_->lcm;
-  return channel == lcm.status_channel || channel == lcm.control_channel || channel == lcm.request_channel ||
-         std::any_of(config_->sources.begin(), config_->sources.end(), [&](const SourceConfig& source) {
-           return source.handles_channel == channel || source.segments_channel == channel;
-         });
 }
 
 }  // namespace graspd

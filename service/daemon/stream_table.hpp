@@ -45,8 +45,6 @@ class StreamTable {
   std::shared_ptr<Stream> add(std::size_t source, const std::string& channel);
   std::vector<Job> set_up(Stream& stream, std::size_t source);
   std::vector<Job> forget_unknown();
-  [[nodiscard]] std::size_t first_match(const std::string& channel) const;
-  [[nodiscard]] bool is_own(const std::string& channel) const;
 
   FrameQueue<Job>& queue_;
   const Clock& clock_;

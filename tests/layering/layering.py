@@ -40,7 +40,9 @@ OWN = {
     "service/config": {"service/pipeline", "service/transport/cloud_input.hpp", "service/transport/refusal.hpp"},
     "service/daemon": {"lcmtypes", "service/config", "service/transport", "service/runtime", "service/pipeline"},
     # graspd-detect reads the daemon's configuration, so that both find the same handles.
-    "client": {"lcmtypes", "service/transport", "service/pipeline", "service/config"},
+    # graspd-replay answers a frame by the daemon's own code.
+    "client": {"lcmtypes", "service/transport", "service/pipeline", "service/config",
+               "service/daemon/answer.hpp", "service/daemon/frame_processor.hpp", "service/runtime/clock.hpp"},
     "tests": {"lcmtypes", "service/config", "service/transport", "service/runtime", "service/pipeline",
               "service/daemon", "client"},
 }
@@ -48,7 +50,7 @@ OWN = {
 # Foreign headers by library, and the layers that may use it.
 LIBRARIES = [
     ("LCM", re.compile(r"lcm/"), {"service/transport", "client", "tests"}),
-    ("libsodium", re.compile(r"sodium"), {"service/transport"}),
+    ("libsodium", re.compile(r"sodium"), {"service/transport", "client"}),
     ("yaml-cpp", re.compile(r"yaml-cpp/"), {"service/config", "tests"}),
     ("spdlog", re.compile(r"(spdlog|fmt)/"), {"service/runtime", "service/daemon", "client"}),
     ("CLI11", re.compile(r"CLI/"), {"service/daemon", "client", "tests"}),

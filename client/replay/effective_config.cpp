@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "client/replay/effective_config.hpp"
+
+namespace graspd {
+
+std::string effective_config(ServiceConfig config) {
+  for (SourceConfig& source : config.sources) source.gripper.installed_name.clear();
+  // What has no part in what a frame's answer is.
+  config.workers = ServiceConfig{}.workers;
+  config.threads = ServiceConfig{}.threads;
+  config.lcm.url.clear();
+  return print(config);
+}
+
+ServiceConfig load_replay_config(const std::string& file, const std::string& gripper) {
+  ConfigLayers layers;
+  layers.file = file;
+  layers.gripper = gripper;
+  return load_layers(layers);
+}
+
+}  // namespace graspd
