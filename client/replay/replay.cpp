@@ -9,7 +9,6 @@
 #include "client/common/sha256.hpp"
 #include "client/common/stop_flag.hpp"
 #include "client/replay/effective_config.hpp"
-#include "service/transport/cloud_decoder.hpp"
 #include "service/transport/handle_list_codec.hpp"
 #include "service/transport/seal_keys.hpp"
 
@@ -95,7 +94,6 @@ bool Replay::take_next() {
 EncodedAnswer Replay::answer(const Item& item) const {
   const FrameProcessor& processor = *item.use->processor;
   const std::atomic<bool> never{false};
-  const DecodeLimits& limits = config_.service.limits.decode;
   FrameMessage opened;
   const FrameMessage* message = &item.message;
   EncodedAnswer result;
@@ -112,7 +110,7 @@ EncodedAnswer Replay::answer(const Item& item) const {
       message = &opened;
     }
   }
-  if (!refusal) refusal = check_cloud(message->bytes, limits);
+  if (!refusal) refusal = processor.check(message->bytes);
   result.answer =
       refusal ? processor.refuse(*refusal, arrival) : processor.process(*message, Effort::kFull, never);
   handle_list_t& list = result.answer.list;
