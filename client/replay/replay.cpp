@@ -9,6 +9,7 @@
 #include "client/common/sha256.hpp"
 #include "client/common/stop_flag.hpp"
 #include "client/replay/effective_config.hpp"
+#include "service/transport/cloud_decoder.hpp"
 #include "service/transport/handle_list_codec.hpp"
 #include "service/transport/seal_keys.hpp"
 
@@ -79,6 +80,7 @@ bool Replay::take_next() {
     if (!chosen || (!use.processor && !use.keep)) continue;
     Item& item = items_.emplace_back();
     archive_.read_message(item.message.bytes);
+    item.message.header = peek_header(item.message.bytes, config_.service.limits.decode);
     item.after = archive_.position();
     item.bytes_done = archive_.bytes_done();
     item.frames_seen = frames_read_;
@@ -107,6 +109,7 @@ EncodedAnswer Replay::answer(const Item& item) const {
     } else {
       const auto bytes = std::get<Unsealed>(inside).message;
       opened.bytes.assign(bytes.begin(), bytes.end());
+      opened.header = peek_header(bytes, config_.service.limits.decode);
       message = &opened;
     }
   }
