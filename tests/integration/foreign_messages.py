@@ -34,6 +34,15 @@ class Frame:
                      [struct.unpack_from("<fff", data, i * step) for i in range(count)])
 
 
+def own_message(frame):
+    """The frame as point_cloud_t."""
+    data = b"".join(struct.pack("<fff", *p) for p in frame.points)
+    fields = [SimpleNamespace(name=n, offset=4 * i, datatype=FLOAT32, count=1) for i, n in enumerate("xyz")]
+    return TYPES["point_cloud_t"].encode(
+        utime=UTIME, seq=SEQ, frame_name=NAME, viewpoint=[0, 0, 0], width=frame.width, height=frame.height,
+        num_fields=3, fields=fields, point_step=12, data_size=len(data), data=data)
+
+
 class Layout:
     """Points packed as somebody might: another field before, bytes left over after each point and each row."""
 
@@ -60,13 +69,6 @@ class Messages:
         importlib.invalidate_caches()
         for package in ("drake", "bot_core", "std_msgs", "sensor_msgs"):
             setattr(self, f"_{package}", importlib.import_module(package))
-
-    def own(self, frame):
-        data = b"".join(struct.pack("<fff", *p) for p in frame.points)
-        fields = [SimpleNamespace(name=n, offset=4 * i, datatype=FLOAT32, count=1) for i, n in enumerate("xyz")]
-        return TYPES["point_cloud_t"].encode(
-            utime=UTIME, seq=SEQ, frame_name=NAME, viewpoint=[0, 0, 0], width=frame.width, height=frame.height,
-            num_fields=3, fields=fields, point_step=12, data_size=len(data), data=data)
 
     def drake(self, frame, **layout):
         packed = Layout(frame, **layout)

@@ -7,7 +7,7 @@ import shutil
 import sys
 
 from event_log import write_log
-from foreign_messages import Frame, Messages
+from foreign_messages import Frame, Messages, own_message
 from harness import CLOUDS, GraspdTest, run_tests, skip_all
 
 CONFIG = """
@@ -51,7 +51,7 @@ class ForeignTypes(GraspdTest):
 
     def test_points(self):
         make = self.messages
-        messages = {"own": make.own(self.frame)}
+        messages = {"own": own_message(self.frame)}
         for kind in (make.drake, make.bot_core, make.dimos):
             for big_endian, wide, one_row in itertools.product((False, True), repeat=3):
                 layout = {"big_endian": big_endian, "wide": wide, "one_row": one_row}

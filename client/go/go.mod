@@ -1,0 +1,3 @@
+module graspd
+
+go 1.19
