@@ -58,7 +58,7 @@ demo_enter_network() {
   export GRASPD_DEMO_BUFFER=$demo_buffer
   if [ "$demo_private" = no ]; then
     if demo_loopback_works; then return 0; fi
-    say "This machine has no usable multicast route. To give it one:  sudo ip route add 239.0.0.0/8 dev lo"
+    say "This machine has no usable multicast route. To give it one:  sudo ip route add 239.0.0.0/8 dev lo src 127.0.0.1"
   fi
   unshare=$(demo_unshare)
   [ -n "$unshare" ] || fail "and a private network namespace is not allowed here."

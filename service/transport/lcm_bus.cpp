@@ -107,9 +107,9 @@ LcmBus::~LcmBus() = default;
 
 void LcmBus::require_receiving() {
   if (lcm_get_fileno(lcm_.get()) >= 0) return;
-  fail_for_now(
-      url_,
-      "cannot receive; remedy: check the multicast route (ip route add 239.0.0.0/8 dev lo) and the firewall");
+  fail_for_now(url_,
+               "cannot receive; remedy: check the multicast route (ip route add 239.0.0.0/8 dev lo src "
+               "127.0.0.1) and the firewall");
 }
 
 void LcmBus::subscribe(const std::string& channel_regex, Handler handler, int queue_capacity) {

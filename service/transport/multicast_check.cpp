@@ -25,7 +25,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kPatience{2000};
 constexpr std::chrono::milliseconds kResend{100};
-constexpr std::string_view kRouteRemedy = "ip link set lo up && ip route add 239.0.0.0/8 dev lo";
+constexpr std::string_view kRouteRemedy =
+    "ip link set lo up && ip route add 239.0.0.0/8 dev lo src 127.0.0.1";
 
 /// A short LCM message: magic, sequence number, channel, payload.
 constexpr std::string_view kSelfTest{"LC02\0\0\0\0LCM_SELF_TEST\0lcm self test", 35};
