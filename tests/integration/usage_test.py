@@ -8,7 +8,7 @@ import re
 from harness import GraspdTest, run_tests
 
 PROGRAMS = ["graspd", "graspd-detect", "graspd-publish", "graspd-simulate", "graspd-listen", "graspd-log",
-            "graspd-status", "graspd-bridge", "graspd-evaluate", "graspd-bench"]
+            "graspd-status", "graspd-bridge", "graspd-meldis", "graspd-evaluate", "graspd-bench"]
 WITHOUT_LCM = ["graspd-detect", "graspd-evaluate", "graspd-bench"]
 
 
