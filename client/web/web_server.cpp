@@ -138,6 +138,9 @@ void WebServer::broadcast(const WebMessage& message) {
 int WebServer::clients() const {
   return implementation_->hub.size();
 }
+const WebCounters& WebServer::counters() const {
+  return implementation_->hub.counters;
+}
 WebCounters& WebServer::counters() {
   return implementation_->hub.counters;
 }

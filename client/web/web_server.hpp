@@ -56,6 +56,7 @@ class WebServer {
 
   [[nodiscard]] int clients() const;
   [[nodiscard]] WebCounters& counters();
+  [[nodiscard]] const WebCounters& counters() const;
 
  private:
   class Implementation;

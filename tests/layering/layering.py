@@ -19,7 +19,7 @@ CPP = {".cpp", ".hpp", ".c", ".h"}
 SOURCES = CPP | {".py", ".sh", ".cmake", ".js", ".ts"}
 LICENSED = SOURCES | {".yaml", ".yml", ".service"}
 LICENSED_NAMES = {"CMakeLists.txt", "Dockerfile", "run"}
-SKIPPED = re.compile(r"(\.git|build|build-.*|__pycache__|\.cache|node_modules)")
+SKIPPED = re.compile(r"(\.git|build|build-.*|__pycache__|\.cache|node_modules|dist)")
 
 # Own folders that a layer may include, besides itself. A file in place of a folder narrows the permission to it.
 OWN = {

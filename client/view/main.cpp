@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+// graspd-view: what graspd sees, live in the browser.
+#include <CLI/CLI.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <stdexcept>
+#include <string>
+
+#include "client/common/frame_publisher.hpp"
+#include "client/common/lcm_loop.hpp"
+#include "client/common/program.hpp"
+#include "client/common/stop_flag.hpp"
+#include "client/view/viewer.hpp"
+#include "service/config/config_folders.hpp"
+
+namespace graspd {
+namespace {
+
+struct Options {
+  std::string lcm_url;
+  std::string token_file;
+  std::string page;
+  std::string control_channel;
+  ViewerOptions viewer;
+};
+
+void add_options(CLI::App& app, Options& o) {
+  o.viewer.web.port = 8090;
+  add_lcm_url(app, o.lcm_url);
+  add_version(app);
+  app.add_option(
+      "--config", o.viewer.config_file,
+      "the daemon's service file: channels, sensor poses and settings (default: graspd's defaults)");
+  app.add_option("-p,--port", o.viewer.web.port, "to listen on; 0: a free one")->capture_default_str();
+  app.add_option("--address", o.viewer.web.address,
+                 "to listen on; one beyond this machine needs --token-file, and so do its pages")
+      ->capture_default_str();
+  app.add_option("--token-file", o.token_file,
+                 "whose first line, 16 characters at least, pages need to change anything (default: a new "
+                 "one each start)");
+  app.add_option("--control-channel", o.control_channel,
+                 "where settings go to (default: the configuration's lcm.control_channel)");
+  app.add_option("--key", o.viewer.key_file,
+                 "open and sign messages with this file's keys (see graspd-keygen)");
+  app.add_option("--max-points", o.viewer.frames.max_points, "of larger clouds every n-th point is shown")
+      ->check(CLI::Range(1000, 10'000'000))
+      ->capture_default_str();
+  app.add_option("--page", o.page, "folder of the page (default: the installed one)");
+}
+
+std::string read_token(const std::string& file) {
+  std::ifstream in(file);
+  std::string token;
+  if (!std::getline(in, token)) throw std::runtime_error(file + ": the token cannot be read");
+  constexpr std::size_t kShortest = 16;
+  if (token.size() < kShortest) throw std::runtime_error(file + ": the token is shorter than 16 characters");
+  return token;
+}
+
+void prepare(Options& o) {
+  o.viewer.web.assets =
+      o.page.empty() ? installed_config_folder().parent_path() / "view" : std::filesystem::path(o.page);
+  if (!o.token_file.empty()) o.viewer.web.token = read_token(o.token_file);
+}
+
+void subscribe(LcmBus& bus, Viewer& viewer) {
+  const ServiceConfig& config = viewer.settings().config();
+  std::set<std::string> clouds, others{config.lcm.status_channel};
+  for (const SourceConfig& source : config.sources) {
+    clouds.insert(source.channel);
+    others.insert(source.handles_channel);
+  }
+  constexpr int kClouds = 4, kOthers = 100;
+  const auto take = [&viewer](const Packet& packet) {
+    viewer.take(std::string(packet.channel), packet.bytes, packet.recv_utime);
+  };
+  for (const std::string& channel : clouds) bus.subscribe(channel, take, kClouds);
+  for (const std::string& channel : others) bus.subscribe(channel, take, kOthers);
+}
+
+int view_live(const CLI::App& app, const Options& o) {
+  const std::string url = resolve_lcm_url(o.lcm_url);
+  for (const std::string& warning : receive_buffer_warnings(url)) say(app, warning);
+  LcmBus bus(url);
+  Viewer viewer(o.viewer);
+  const std::string& configured = viewer.settings().config().lcm.control_channel;
+  const std::string control_channel = o.control_channel.empty() ? configured : o.control_channel;
+  ControlChannel control(bus, control_channel, o.viewer.key_file);
+  viewer.use_control(control, !control_channel.empty());
+  subscribe(bus, viewer);
+  viewer.pages().start();
+  write_output(viewer.pages().web().url() + "#token=" + viewer.pages().web().token() + "\n");
+  constexpr std::chrono::milliseconds kTick{20};
+  while (!stop_requested()) {
+    if (bus.wait(kTick) == LcmBus::Wait::kClosed) return exit_code(app, LoopEnd::kClosed, url);
+    viewer.look(wall_clock_us());
+  }
+  return kExitOk;
+}
+
+}  // namespace
+}  // namespace graspd
+
+int main(int argc, char** argv) {
+  using namespace graspd;
+  CLI::App app("Serves a page that shows clouds, segments and handles live; prints its address.",
+               "graspd-view");
+  Options options;
+  add_options(app, options);
+  return run_program(app, argc, argv, [&] {
+    prepare(options);
+    return view_live(app, options);
+  });
+}
