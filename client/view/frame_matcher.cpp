@@ -40,6 +40,7 @@ void FrameMatcher::drop_oldest(Channel& channel) {
 /// Older ones of the channel go: the picture never runs backwards.
 void FrameMatcher::give(Channel& channel, const MatchedFrame* frame) {
   while (&channel.waiting.front() != frame) drop_oldest(channel);
+  channel.last_given_us = frame->arrived_us;
   MatchedFrame given = std::move(channel.waiting.front());
   bytes_ -= bytes_of(given);
   channel.waiting.pop_front();
@@ -48,6 +49,8 @@ void FrameMatcher::give(Channel& channel, const MatchedFrame* frame) {
 
 void FrameMatcher::give_if_whole(Channel& channel, MatchedFrame* frame, std::int64_t now_us) {
   if (frame == nullptr || !frame->list) return;
+  // One that was not worked on is passed over for the next.
+  if (frame->list->status == handle_list_t::OVERLOADED) return;
   const bool more_to_come =
       frame->segmentation.empty() && within(channel.last_segmentation_us, now_us, kSilence_us) &&
       (frame->list->status == handle_list_t::OK || frame->list->status == handle_list_t::NO_HANDLES);
@@ -81,6 +84,7 @@ void FrameMatcher::add_list(const handle_list_t& list, std::int64_t now_us) {
   MatchedFrame* frame = find(*channel, list.utime, list.seq);
   if (frame == nullptr) return;
   frame->list = list;
+  frame->answered_us = now_us;
   give_if_whole(*channel, frame, now_us);
 }
 
@@ -99,9 +103,13 @@ void FrameMatcher::add_segmentation(const std::string& name, std::int64_t utime,
 void FrameMatcher::look(std::int64_t now_us) {
   for (auto& [name, channel] : channels_) {
     if (channel.waiting.empty()) continue;
-    const auto late = std::find_if(
-        channel.waiting.rbegin(), channel.waiting.rend(),
-        [&](const MatchedFrame& f) { return f.list && now_us - f.arrived_us > kSegmentationWait_us; });
+    const auto late =
+        std::find_if(channel.waiting.rbegin(), channel.waiting.rend(), [&](const MatchedFrame& f) {
+          if (!f.list) return false;
+          const bool passed_over = f.list->status == handle_list_t::OVERLOADED;
+          return passed_over ? f.arrived_us - channel.last_given_us > kSilence_us
+                             : now_us - f.answered_us > kSegmentationWait_us;
+        });
     if (late != channel.waiting.rend())
       give(channel, &*late);
     else if (!within(channel.last_list_us, now_us, kSilence_us) &&

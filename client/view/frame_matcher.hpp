@@ -25,6 +25,7 @@ struct MatchedFrame {
   std::optional<handle_list_t> list;
   std::vector<std::byte> segmentation;  ///< the message; empty: none came
   std::int64_t arrived_us = 0;
+  std::int64_t answered_us = 0;  ///< when the list came
 };
 
 /// Times are microseconds of one clock, live or a log's. Keeps a few clouds a channel and a bounded number of
@@ -55,6 +56,7 @@ class FrameMatcher {
   struct Channel {
     std::deque<MatchedFrame> waiting;  // oldest first
     std::int64_t first_cloud_us = 0;
+    std::int64_t last_given_us = 0;  // when it had arrived
     std::optional<std::int64_t> last_list_us;
     std::optional<std::int64_t> last_segmentation_us;
   };

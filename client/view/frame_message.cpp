@@ -5,16 +5,17 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
-#include <cstring>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "client/common/handle_text.hpp"
 #include "client/common/json_writer.hpp"
+#include "client/detect/explanation.hpp"
 #include "client/view/cloud_colors.hpp"
 #include "service/pipeline/handle.hpp"
 #include "service/transport/cloud_decoder.hpp"
+#include "service/transport/segmentation_codec.hpp"
 
 namespace graspd {
 namespace {
@@ -102,7 +103,39 @@ void write_floats(JsonWriter& json, std::string_view name, const Values& values)
   json.end_array();
 }
 
+/// The last check that a candidate of the segment reached, for people; empty where one passed all.
+std::string_view why(const segment_t& segment) {
+  if (segment.num_handles > 0)
+    return "left out of the list: too close to others, too many, or the score too low";
+  if (segment.num_candidates == 0) return "no candidate: no place on it is worth a try";
+  for (std::size_t i = 0; i < kNumFailures; ++i)
+    if (name(static_cast<Failure>(i)) == segment.reason) return in_words(static_cast<Failure>(i));
+  return segment.reason;
+}
+
+void write_segment(JsonWriter& json, const segment_t& segment) {
+  json.begin_object().member("id", segment.id).member("object", segment.object);
+  json.member("num_points", segment.num_points);
+  write_floats(json, "centroid", segment.centroid);
+  write_floats(json, "normal", segment.normal);
+  write_floats(json, "major_axis", segment.major_axis);
+  json.member("num_candidates", segment.num_candidates).member("num_handles", segment.num_handles);
+  json.member("reason", segment.reason).member("why", why(segment)).key("failures").begin_object();
+  for (const reason_count_t& failure : segment.failures) json.member(failure.reason, failure.count);
+  json.end_object().end_object();
+}
+
+void write_segmentation(JsonWriter& json, const segmentation_t& segmentation) {
+  json.key("segmentation").begin_object();
+  json.key("voxel_size").value_float(segmentation.voxel_size);
+  write_floats(json, "support_plane", segmentation.support_plane);
+  json.key("segments").begin_array();
+  for (const segment_t& segment : segmentation.segments) write_segment(json, segment);
+  json.end_array().end_object();
+}
+
 std::string frame_json(const MatchedFrame& frame, const Frame& decoded,
+                       const std::optional<segmentation_t>& segmentation,
                        const Eigen::Isometry3f& T_target_cloud) {
   const std::string& frame_name = frame.list ? frame.list->frame_name : decoded.frame_name;
   const Eigen::Vector3f viewpoint = T_target_cloud * decoded.cloud.viewpoint;
@@ -124,6 +157,7 @@ std::string frame_json(const MatchedFrame& frame, const Frame& decoded,
     write_handle_list(json, *frame.list);
     json.end_object();
   }
+  if (segmentation) write_segmentation(json, *segmentation);
   return json.end_object().str();
 }
 
@@ -142,20 +176,28 @@ std::variant<std::string, Refusal> make_frame_message(const MatchedFrame& frame,
   const Frame& decoded = std::get<Frame>(decoding);
   const QuantizedPoints points =
       quantized(decoded.cloud, cloud_colors(frame.cloud, options.limits), T_target_cloud, options.max_points);
-  const std::string json = frame_json(frame, decoded, T_target_cloud);
+  const std::optional<segmentation_t> segmentation = decode_segmentation(frame.segmentation);
+  const std::span<const std::uint8_t> segmented =
+      segmentation ? std::span<const std::uint8_t>(segmentation->data) : std::span<const std::uint8_t>();
+  const std::string json = frame_json(frame, decoded, segmentation, T_target_cloud);
   Packer packer;
-  packer.reserve(128 + json.size() + 2 * points.xyz.size() + points.colors.size());
+  packer.reserve(128 + json.size() + 2 * points.xyz.size() + points.colors.size() + segmented.size());
   for (const char c : {'G', 'V', 'F', '1'}) packer.put(c);
   packer.put(static_cast<std::uint32_t>(json.size()));
   packer.put(static_cast<std::uint32_t>(points.xyz.size() / 3));
-  packer.put(std::uint32_t{0});
+  packer.put(static_cast<std::uint32_t>(segmented.size() / segmentation_t::POINT_BYTES));
   packer.put(points.colors.empty() ? 0 : kHasColors);
   packer.put(serial);
   put_grid(packer, points.origin, points.step);
-  put_grid(packer, Eigen::Vector3f::Zero(), 0);
+  if (segmentation)
+    put_grid(packer, Eigen::Vector3d(segmentation->origin).cast<float>(),
+             static_cast<float>(segmentation->step));
+  else
+    put_grid(packer, Eigen::Vector3f::Zero(), 0);
   packer.put_all(std::span<const char>(json));
   packer.put_all(std::span<const std::uint16_t>(points.xyz));
   packer.put_all(std::span<const std::uint8_t>(points.colors));
+  packer.put_all(segmented);
   return packer.take();
 }
 

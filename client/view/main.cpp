@@ -71,7 +71,7 @@ void subscribe(LcmBus& bus, Viewer& viewer) {
   std::set<std::string> clouds, others{config.lcm.status_channel};
   for (const SourceConfig& source : config.sources) {
     clouds.insert(source.channel);
-    others.insert(source.handles_channel);
+    others.insert({source.handles_channel, source.segments_channel});
   }
   constexpr int kClouds = 4, kOthers = 100;
   const auto take = [&viewer](const Packet& packet) {

@@ -12,6 +12,8 @@
 #include "service/transport/cloud_decoder.hpp"
 #include "service/transport/handle_list_codec.hpp"
 #include "service/transport/seal_keys.hpp"
+#include "service/transport/segmentation_codec.hpp"
+#include "service/transport/segmentation_request_codec.hpp"
 #include "service/transport/status_codec.hpp"
 #include "service/transport/wire_layout.hpp"
 
@@ -66,6 +68,9 @@ void Viewer::take_opened(const std::string& channel, std::span<const std::byte> 
   const std::optional<std::uint64_t> type = fingerprint(message);
   if (type == kHandleListFingerprint) {
     if (const auto list = decode_handle_list(message)) matcher_.add_list(*list, now_us);
+  } else if (type == kSegmentationFingerprint) {
+    if (const auto made = decode_segmentation(message))
+      matcher_.add_segmentation(made->source_channel, made->utime, made->seq, message, now_us);
   } else if (type == kStatusFingerprint) {
     take_status(message);
   } else if (type == kPointCloudFingerprint || type == kDepthImageFingerprint) {
@@ -87,6 +92,16 @@ void Viewer::look(std::int64_t now_us) {
   if (now < next_second_) return;
   next_second_ = now + std::chrono::seconds(1);
   pages_.show_state(kServerTopic, pages_.statistics());
+  if (control_ != nullptr && pages_.pages() > 0) ask_for_segments();
+}
+
+/// Lasts until the next time, and a little longer.
+void Viewer::ask_for_segments() {
+  const std::string& channel = settings_.config().lcm.request_channel;
+  segmentation_request_t request;
+  request.utime = wall_clock_us();
+  request.seconds = 2.5;
+  if (!channel.empty()) control_->publish(channel, encode(request));
 }
 
 void Viewer::clear() {

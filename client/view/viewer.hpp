@@ -55,6 +55,7 @@ class Viewer {
   void execute(const WebClient& client, const Command& command);
   void change_settings(const WebClient& client, std::int8_t command, const std::string& yaml);
   void show_settings();
+  void ask_for_segments();
 
   const ViewerOptions options_;
   Settings settings_;

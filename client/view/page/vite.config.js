@@ -7,6 +7,7 @@ export default defineConfig({
     target: "es2022",
     sourcemap: false,
     modulePreload: false,
+    license: { fileName: "licenses.md" },
     chunkSizeWarningLimit: 1500,
     assetsInlineLimit: 0, // the page's policy knows no data: scripts or styles
   },

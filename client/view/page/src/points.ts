@@ -39,6 +39,7 @@ void main() {
   }
   vec4 seen = modelViewMatrix * vec4(p, 1.0);
   gl_Position = projectionMatrix * seen;
+  if (mode == 3) gl_Position.z += 0.004; // behind what is made of the same points
   gl_PointSize = clamp(size / -seen.z, 1.0, 24.0);
 }`;
 
@@ -163,8 +164,7 @@ export class PointView {
 
   private apply(): void {
     const shown = this.shownMode();
-    this.cloud.uniforms.mode.value = shown === "rgb" ? 0 : 1;
-    this.cloud.object.visible = shown !== "segment";
+    this.cloud.uniforms.mode.value = { rgb: 0, depth: 1, segment: 3 }[shown];
     this.segmentation.uniforms.mode.value = 2;
     this.segmentation.uniforms.edgesMarked.value = this.edges ? 1 : 0;
     this.segmentation.object.visible = shown === "segment";
@@ -173,7 +173,7 @@ export class PointView {
   /** pixelsPerMetre: of something one metre away. */
   setPixels(pixelsPerMetre: number): void {
     // Neighbours of a VGA sensor are about 1.7 mm apart for each metre of distance; a voxel has its own size.
-    this.cloud.uniforms.pointSize.value = pixelsPerMetre * 0.0022;
+    this.cloud.uniforms.pointSize.value = pixelsPerMetre * 0.0027;
     this.segmentation.uniforms.pointSize.value = pixelsPerMetre * (this.frame?.info.segmentation?.voxel_size ?? 0.003) * 1.25;
   }
   setTheme(plain: string, edge: string, marked: string): void {

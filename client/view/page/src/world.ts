@@ -54,6 +54,7 @@ export class World {
 
   private readonly renderer: THREE.WebGLRenderer;
   private readonly scene = new THREE.Scene();
+  private readonly origin = axes(0.1);
   private readonly corner = new THREE.Scene();
   private readonly camera = new THREE.PerspectiveCamera(45, 1, 0.02, 50);
   private readonly cornerCamera = new THREE.OrthographicCamera(-1.5, 1.5, 1.5, -1.5, 0.1, 10);
@@ -69,7 +70,7 @@ export class World {
   constructor(private readonly canvas: HTMLCanvasElement, private readonly scaleBar: HTMLElement) {
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: false });
     this.renderer.autoClear = false;
-    this.scene.add(this.points.object, this.glyphs.object, axes(0.1), new THREE.AmbientLight(0xffffff, 1.1));
+    this.scene.add(this.points.object, this.glyphs.object, this.origin, new THREE.AmbientLight(0xffffff, 1.1));
     this.scene.add(this.light, this.light.target);
     this.corner.add(axes(1));
     this.controls = this.newControls();
@@ -175,7 +176,6 @@ export class World {
     controls.zoomToCursor = true;
     controls.addEventListener("change", () => this.redraw());
     controls.addEventListener("start", () => {
-      if (this.view === "camera") this.camera.up.copy(this.camera.up);
       this.view = null;
     });
     return controls;
@@ -211,6 +211,7 @@ export class World {
   private draw(): void {
     this.light.position.copy(this.camera.position);
     this.light.target.position.copy(this.controls.target);
+    this.origin.visible = this.camera.position.length() > 0.5; // who stands in them sees nothing else
     this.renderer.clear();
     this.renderer.render(this.scene, this.camera);
     const { width, height } = this.renderer.getSize(new THREE.Vector2());
