@@ -4,17 +4,18 @@
 import csv
 import json
 import re
+import struct
 
 from harness import GraspdTest, run_tests
 
 PROGRAMS = ["graspd", "graspd-detect", "graspd-publish", "graspd-simulate", "graspd-listen", "graspd-log",
-            "graspd-status", "graspd-bridge", "graspd-meldis", "graspd-evaluate", "graspd-bench"]
-WITHOUT_LCM = ["graspd-detect", "graspd-evaluate", "graspd-bench"]
+            "graspd-status", "graspd-bridge", "graspd-meldis", "graspd-evaluate", "graspd-bench", "graspd-draw"]
+WITHOUT_LCM = ["graspd-detect", "graspd-evaluate", "graspd-bench", "graspd-draw"]
 
 
 # What comes before an option that is wrong, where something has to.
 REQUIRED = {"graspd-detect": ["cloud.pcd"], "graspd-evaluate": ["cloud.pcd"], "graspd-publish": ["cloud.pcd"],
-            "graspd-log": ["a.log"]}
+            "graspd-log": ["a.log"], "graspd-draw": ["cloud.pcd", "-o", "a.png"]}
 
 
 class Usage(GraspdTest):
@@ -65,6 +66,24 @@ class Usage(GraspdTest):
         self.assertEqual(text.count("segments without a handle: "), 2)
         plain = self.run_program("graspd-detect", "-f", "csv", frames).lines()
         self.assertEqual(len(plain) - 1, sum(int(row["listed"]) for row in rows))
+
+    def test_draw_makes_the_same_picture_again(self):
+        frames = self.simulate(1)
+        pictures = {}
+        for name, options in {"a": [], "again": ["--threads", 1], "top": ["--view", "top"], "depth": ["--color", "depth"],
+                              "small": ["--size", "320x240"], "robotiq": ["--gripper", "robotiq_2f_140"]}.items():
+            self.run_program("graspd-draw", frames, "-o", self.folder / f"{name}.png", *options)
+            pictures[name] = (self.folder / f"{name}.png").read_bytes()
+            self.assertEqual(pictures[name][:8], b"\x89PNG\r\n\x1a\n")
+        self.assertEqual(pictures["a"], pictures.pop("again"))
+        self.assertEqual(len(set(pictures.values())), 5)
+        self.assertEqual(struct.unpack(">II", pictures["small"][16:24]), (320, 240))
+        for wrong in (["--size", "10x10"], ["--size", "960"], ["--view", "left"], ["--color", "pink"]):
+            self.run_program("graspd-draw", frames, "-o", "no.png", *wrong, code=2)
+        for missing in (["--frame", 1, frames], [self.folder / "none.log"]):
+            program = self.run_program("graspd-draw", *missing, "-o", self.folder / "no.png", code=1)
+            self.assertEqual(len(program.err.splitlines()), 1)
+        self.assertFalse((self.folder / "no.png").exists())
 
     def test_the_explanation_has_no_empty_rows(self):
         program = self.run_program("graspd-detect", "--explain", "--empty-rows", "cloud.pcd", code=2)

@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+// graspd-draw: a frame as a picture, without a display.
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <map>
+
+#include "client/common/program.hpp"
+#include "client/common/replace_file.hpp"
+#include "client/detect/detect_options.hpp"
+#include "client/draw/drawn_frame.hpp"
+
+namespace graspd {
+namespace {
+
+struct Options {
+  std::vector<std::string> inputs;
+  std::string output;
+  std::size_t number = 0;
+  std::string size = "960x720";
+  DetectOptions detect;
+  PictureOptions picture;
+};
+
+const std::map<std::string, PictureView> kViews{
+    {"camera", PictureView::kCamera}, {"top", PictureView::kTop}, {"front", PictureView::kFront}};
+const std::map<std::string, PictureColor> kColors{
+    {"segment", PictureColor::kSegment}, {"rgb", PictureColor::kRgb}, {"depth", PictureColor::kDepth}};
+
+/// "WxH", each 64 to 8192; else a reason.
+std::string read_size(const std::string& text, PictureOptions& picture) {
+  const char* const end = text.data() + text.size();
+  const auto width = std::from_chars(text.data(), end, picture.width);
+  if (width.ec == std::errc{} && width.ptr != end && *width.ptr == 'x') {
+    const auto height = std::from_chars(width.ptr + 1, end, picture.height);
+    const auto can_be = [](int side) { return side >= 64 && side <= 8192; };
+    if (height.ec == std::errc{} && height.ptr == end && can_be(picture.width) && can_be(picture.height))
+      return {};
+  }
+  return "expected WIDTHxHEIGHT, each 64 to 8192 pixels";
+}
+
+void add_options(CLI::App& app, Options& o) {
+  add_version(app);
+  app.add_option("files", o.inputs, "PCD or PLY files, folders of them, or LCM event logs")->required();
+  app.add_option("-o,--output", o.output, "the PNG file; - for standard output")->required();
+  app.add_option("--frame", o.number, "which one of all frames, from 0")->capture_default_str();
+  app.add_option("--view", o.picture.view, "from the camera, the top or the front")
+      ->transform(CLI::CheckedTransformer(kViews))
+      ->default_str("camera");
+  app.add_option("--color", o.picture.color,
+                 "of the points: by segment, rgb (where the file has it) or depth")
+      ->transform(CLI::CheckedTransformer(kColors))
+      ->default_str("segment");
+  app.add_option("--size", o.size, "WIDTHxHEIGHT [pixels]")
+      ->check([&o](const std::string& text) { return read_size(text, o.picture); })
+      ->capture_default_str();
+  app.add_option("--handles", o.picture.max_handles, "handles drawn at most, the best ones")
+      ->capture_default_str();
+  app.add_flag("--all", o.picture.whole_cloud, "show the whole cloud, not only what stands on the support");
+  add_detect_options(app, o.detect);
+}
+
+int draw(const CLI::App& app, const Options& o) {
+  const SourceConfig source = source_config(o.detect);
+  const int threads = thread_count(o.detect);
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(threads));
+  tbb::task_arena arena(threads);
+  std::vector<std::string> problems;
+  PictureFrame frame;
+  arena.execute([&] { frame = find_drawn_frame(o.inputs, o.number, source, problems); });
+  for (const std::string& problem : problems) say(app, problem);
+  if (o.picture.color == PictureColor::kRgb && frame.cloud.rgb.empty())
+    say(app, "the frame has no colours: drawn by depth");
+  const std::string png = encode_png(draw_picture(frame, o.picture));
+  if (o.output == "-") {
+    write_output(png);
+  } else {
+    replace_file(o.output, png);
+  }
+  return kExitOk;
+}
+
+}  // namespace
+}  // namespace graspd
+
+int main(int argc, char** argv) {
+  using namespace graspd;
+  CLI::App app("Draws a frame: its points, its segments and the gripper at its handles.", "graspd-draw");
+  Options options;
+  add_options(app, options);
+  return run_program(app, argc, argv, [&] { return draw(app, options); });
+}
