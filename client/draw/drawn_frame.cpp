@@ -32,7 +32,8 @@ struct FoundFrame {
 
 class Search {
  public:
-  Search(std::size_t number, std::vector<std::string>& problems) : left_(number), problems_(problems) {}
+  Search(std::size_t number, const CloudInput& input, std::vector<std::string>& problems)
+      : left_(number), input_(input), problems_(problems) {}
 
   bool in_file(const std::filesystem::path& path) {
     try {
@@ -75,7 +76,7 @@ class Search {
     if (type == kHandleListFingerprint || type == kStatusFingerprint || type == kSegmentationFingerprint ||
         type == kControlFingerprint || type == kSegmentationRequestFingerprint || type == kSealedFingerprint)
       return false;
-    auto decoded = decode_cloud(event.bytes, DecodeLimits{});
+    auto decoded = decode_cloud(event.bytes, DecodeLimits{}, input_);
     if (const auto* refusal = std::get_if<Refusal>(&decoded)) {
       if (refusal->reason != RefusalReason::kUnknownType)
         problems_.push_back(log.string() + ": " + plain_line(event.channel) + ": " + refusal->text);
@@ -104,6 +105,7 @@ class Search {
   }
 
   std::size_t left_;
+  const CloudInput& input_;
   std::vector<std::string>& problems_;
   FoundFrame found_;
 };
@@ -130,7 +132,7 @@ void detect(FoundFrame& found, const SourceConfig& source) {
 
 PictureFrame find_drawn_frame(const std::vector<std::string>& arguments, std::size_t number,
                               const SourceConfig& source, std::vector<std::string>& problems) {
-  Search search(number, problems);
+  Search search(number, source.input, problems);
   bool is_found = false;
   for (const auto& path : list_cloud_files(arguments)) {
     is_found = is_event_log(path) ? search.in_log(path) : search.in_file(path);
