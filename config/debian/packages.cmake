@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The graspd authors
 # SPDX-License-Identifier: BSD-3-Clause
-# The Debian packages, one a component: graspd, graspd-bench, libgraspd-dev.
+# The Debian packages, one a component: graspd, graspd-bench, libgraspd-dev and, where there is Java, graspd-spy.
 set(changelog ${CMAKE_CURRENT_SOURCE_DIR}/changelog)
 file(STRINGS ${changelog} newest LIMIT_COUNT 1)
 if(NOT newest MATCHES "^graspd \\(${PROJECT_VERSION}-([0-9]+)\\) ")
@@ -43,6 +43,12 @@ graspd_package(bench graspd-bench misc "measures how long graspd takes, with PCL
   "Times the stages of graspd, its decoders and the way over LCM, and the same\nwork done with the Point Cloud Library in the same run.")
 graspd_package(dev libgraspd-dev libdevel "grasp handles in point clouds, as a C++ library"
   "Headers, static library and CMake package (find_package(graspd)) of graspd's\npipeline, for use in-process and without LCM, with adapters for the clouds of\nthe Point Cloud Library.")
+if(script_programs)
+  graspd_package(spy graspd-spy misc "shows LCM messages live, with graspd's types decoded"
+    "LCM's lcm-spy with the types of graspd, and the jar of these types for other\nJava programs.")
+  set(CPACK_DEBIAN_SPY_PACKAGE_ARCHITECTURE all)
+  set(CPACK_DEBIAN_SPY_PACKAGE_DEPENDS "default-jre, liblcm-java, libjchart2d-java")
+endif()
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libeigen3-dev, libtbb-dev")
 set(CPACK_DEBIAN_BENCH_PACKAGE_DEPENDS "graspd (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})")
 set(CPACK_DEBIAN_GRASPD_PACKAGE_RECOMMENDS "iproute2")
