@@ -9,6 +9,7 @@
 #include "service/transport/decoding.hpp"
 #include "service/transport/depth_image_decoder.hpp"
 #include "service/transport/foreign_cloud_decoder.hpp"
+#include "service/transport/foreign_image_decoder.hpp"
 #include "service/transport/point_cloud_decoder.hpp"
 #include "service/transport/wire_layout.hpp"
 
@@ -46,7 +47,8 @@ CloudType own_depth_image_type() {
 const CloudType* find_type(std::optional<std::uint64_t> fingerprint) {
   static const std::array kTypes{own_point_cloud_type(),  own_depth_image_type(),
                                  lcmt_point_cloud_type(), pointcloud2_type(),
-                                 pointcloud_type(),       sensor_msgs_point_cloud2_type()};
+                                 pointcloud_type(),       sensor_msgs_point_cloud2_type(),
+                                 images_type(),           lcmt_image_array_type()};
   const auto found =
       std::find_if(kTypes.begin(), kTypes.end(), [&](const auto& t) { return t.fingerprint == fingerprint; });
   return found == kTypes.end() ? nullptr : &*found;

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <vector>
 
 #include "service/transport/decoding.hpp"
+#include "service/transport/unproject.hpp"
 #include "service/transport/wire_layout.hpp"
 
 namespace graspd {
@@ -89,32 +89,16 @@ std::variant<Parsed, Refusal> parse(std::span<const std::byte> message, const De
   return parsed;
 }
 
-/// The pinhole model. A pixel's ray does not depend on its depth, so each column's and row's share is
-/// computed once.
-void unproject(std::span<const std::byte> data, const Members& m, PointCloud& cloud) {
+void unproject_pixels(std::span<const std::byte> data, const Members& m, PointCloud& cloud) {
   constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
-  const auto width = static_cast<std::size_t>(m.width);
-  const auto height = static_cast<std::size_t>(m.height);
-  std::vector<float> column(width);
-  for (std::size_t u = 0; u < width; ++u)
-    column[u] = static_cast<float>((static_cast<double>(u) - m.cx) / m.fx);
   const auto scale = static_cast<float>(m.depth_scale);
-  for (std::size_t v = 0; v < height; ++v) {
-    const auto row = static_cast<float>((static_cast<double>(v) - m.cy) / m.fy);
-    const std::byte* __restrict depths = data.data() + v * width * sizeof(std::uint16_t);
-    const float* __restrict columns = column.data();
-    float* __restrict x = cloud.x.data() + v * width;
-    float* __restrict y = cloud.y.data() + v * width;
-    float* __restrict z = cloud.z.data() + v * width;
-    for (std::size_t u = 0; u < width; ++u) {
-      std::uint16_t depth = 0;
-      std::memcpy(&depth, depths + u * sizeof(depth), sizeof(depth));
-      const float distance = depth == 0 ? kMissing : static_cast<float>(depth) * scale;
-      x[u] = columns[u] * distance;
-      y[u] = row * distance;
-      z[u] = distance;
-    }
-  }
+  const auto depth_of = [scale](const std::byte* row, std::size_t u) {
+    std::uint16_t depth = 0;
+    std::memcpy(&depth, row + u * sizeof(depth), sizeof(depth));
+    return depth == 0 ? kMissing : static_cast<float>(depth) * scale;
+  };
+  const std::size_t row_stride = static_cast<std::size_t>(m.width) * sizeof(std::uint16_t);
+  unproject(data, row_stride, CameraIntrinsics{m.fx, m.fy, m.cx, m.cy}, depth_of, cloud);
 }
 
 }  // namespace
@@ -134,7 +118,7 @@ std::variant<Frame, Refusal> decode_depth_image(std::span<const std::byte> messa
   frame.cloud.width = m.width;
   frame.cloud.height = m.height;
   frame.cloud.resize(static_cast<std::size_t>(m.width) * static_cast<std::size_t>(m.height));
-  if (has_pixels(m)) unproject(std::get<Parsed>(parsed).data, m, frame.cloud);
+  if (has_pixels(m)) unproject_pixels(std::get<Parsed>(parsed).data, m, frame.cloud);
   return frame;
 }
 

@@ -24,6 +24,8 @@ std::string_view name(RefusalReason reason) {
       return "bad_field";
     case RefusalReason::kBadCalibration:
       return "bad_calibration";
+    case RefusalReason::kBadCompression:
+      return "bad_compression";
     case RefusalReason::kUnsigned:
       return "unsigned";
     case RefusalReason::kForged:

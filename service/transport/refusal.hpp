@@ -21,6 +21,7 @@ enum class RefusalReason : std::uint8_t {
   kMissingField,    ///< a cloud without x, y or z
   kBadField,        ///< of the wrong type, outside the point, or there twice
   kBadCalibration,  ///< intrinsics, depth scale or viewpoint that no sensor has
+  kBadCompression,  ///< compressed pixels that cannot be read, or are not of the image's size
   kUnsigned,        ///< no sealed_t where only those are taken
   kForged,          ///< a seal that no key of ours gives: wrong key, other channel, changed on the way
   kReplayed,        ///< a sealed message that has come before

@@ -25,6 +25,8 @@ inline constexpr std::uint64_t kLcmtPointCloudFingerprint = 0x17f2c128b5d25a95;
 inline constexpr std::uint64_t kPointcloud2Fingerprint = 0x0bcd5ce4bf5a1b4a;
 inline constexpr std::uint64_t kPointcloudFingerprint = 0x0d89dc76eb295069;
 inline constexpr std::uint64_t kSensorMsgsPointCloud2Fingerprint = 0xf5eb3da1c2853175;
+inline constexpr std::uint64_t kImagesFingerprint = 0x20ba4f05e8f5e33a;
+inline constexpr std::uint64_t kLcmtImageArrayFingerprint = 0x1572a7d08d9022e6;
 
 inline constexpr std::size_t kFingerprintBytes = 8;
 

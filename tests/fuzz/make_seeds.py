@@ -8,6 +8,7 @@ What the fuzzers put in front themselves (fingerprints) is left out.
 import pathlib
 import struct
 import sys
+import zlib
 from types import SimpleNamespace
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -92,6 +93,35 @@ def foreign_seeds():
     }
     for name, (kind, message) in seeds.items():
         write("foreign_cloud", name, bytes([kind]) + message[8:])
+
+
+def png16(width, height, numbers):
+    def chunk(name, data):
+        return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
+    rows = b"".join(b"\0" + struct.pack(f">{width}H", *numbers[width * v:width * (v + 1)]) for v in range(height))
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 16, 0, 0, 0, 0)) +
+            chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+
+
+def image_seeds():
+    """Two by two pixels each, in every format and packing."""
+    numbers = [1000, 0, 65535, 2000]
+    raw = struct.pack("<4H", *numbers)
+    metadata = SimpleNamespace(key="k", n=2, value=b"vv")
+    for name, kind, data in (("raw", 4, raw), ("zlib", 6, zlib.compress(raw)), ("colour", 0, raw), ("no_zlib", 6, raw)):
+        image = SimpleNamespace(utime=1, width=2, height=2, row_stride=4, pixelformat=-1, size=len(data), data=data,
+                                nmetadata=1, metadata=[metadata])
+        message = FOREIGN["images_t"].encode(utime=1, n_images=1, image_types=[kind], images=[image])
+        write("foreign_image", f"bot_core_{name}", b"\0" + message[8:])
+    header = SimpleNamespace(seq=2, utime=1, frame_name="f")
+    floats = struct.pack("<4f", 1, 0, float("inf"), 2)
+    for name, kind, packing, data in (("raw", 3, 0, raw), ("zlib", 3, 1, zlib.compress(raw)), ("png", 3, 3, png16(2, 2, numbers)),
+                                      ("float", 6, 0, floats), ("float_zlib", 6, 1, zlib.compress(floats)),
+                                      ("png_of_another_size", 3, 3, png16(1, 2, numbers)), ("jpeg", 3, 2, raw)):
+        image = SimpleNamespace(header=header, width=2, height=2, row_stride=8 if kind == 6 else 4, size=len(data), data=data,
+                                bigendian=0, pixel_format=5, channel_type=kind, compression_method=packing)
+        message = FOREIGN["lcmt_image_array"].encode(header=header, num_images=1, images=[image])
+        write("foreign_image", f"drake_{name}", b"\1" + message[8:])
 
 
 def config_seeds():
@@ -206,7 +236,7 @@ def segmentation_seeds():
 
 
 def main():
-    for seeds in (detect_seeds, foreign_seeds, config_seeds, pcd_seeds, ply_seeds, log_seeds, seal_seeds, segmentation_seeds):
+    for seeds in (detect_seeds, foreign_seeds, image_seeds, config_seeds, pcd_seeds, ply_seeds, log_seeds, seal_seeds, segmentation_seeds):
         seeds()
 
 

@@ -6,6 +6,7 @@ import math
 import pathlib
 import struct
 import subprocess
+import zlib
 from array import array
 from types import SimpleNamespace
 
@@ -41,6 +42,40 @@ def own_message(frame):
     return TYPES["point_cloud_t"].encode(
         utime=UTIME, seq=SEQ, frame_name=NAME, viewpoint=[0, 0, 0], width=frame.width, height=frame.height,
         num_fields=3, fields=fields, point_step=12, data_size=len(data), data=data)
+
+
+class Depth:
+    """The frame as 16-bit millimetres, and what packs them."""
+
+    CAMERA = {"fx": 131.25, "fy": 131.25, "cx": 79.5, "cy": 59.5}
+
+    def __init__(self, frame):
+        self.width, self.height = frame.width, frame.height
+        self.millimetres = [0 if math.isnan(p[2]) else round(1000 * p[2]) for p in frame.points]
+
+    def packed(self, big_endian=False, metres=False):
+        """Rounded to float32 as the daemon rounds millimetres, so that both are the same depth."""
+        order = ">" if big_endian else "<"
+        if not metres:
+            return struct.pack(f"{order}{len(self.millimetres)}H", *self.millimetres)
+        scale = struct.unpack("f", struct.pack("f", 0.001))[0]
+        return struct.pack(f"{order}{len(self.millimetres)}f", *(d * scale for d in self.millimetres))
+
+    def png(self):
+        def chunk(name, data):
+            return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
+        data = self.packed(big_endian=True)
+        rows = b"".join(b"\0" + data[2 * self.width * v:2 * self.width * (v + 1)] for v in range(self.height))
+        return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", self.width, self.height, 16, 0, 0, 0, 0)) +
+                chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+
+
+def own_depth_message(frame):
+    """The frame as depth_image_t."""
+    depth = Depth(frame)
+    data = depth.packed()
+    return TYPES["depth_image_t"].encode(utime=UTIME, seq=SEQ, frame_name=NAME, depth_scale=0.001, **Depth.CAMERA,
+                                         width=depth.width, height=depth.height, data_size=len(data), data=data)
 
 
 class Layout:
@@ -113,6 +148,33 @@ class Messages:
         message.n_points = len(message.points)
         message.n_channels, message.channel_names = 1, ["intensity"]
         message.channels = [array("f", bytes(4 * message.n_points))]
+        return message.encode()
+
+    def images(self, frame, zipped):
+        """images_t: a colour image and the depth."""
+        depth = Depth(frame)
+        message, colour, image = self._bot_core.images_t(), self._bot_core.image_t(), self._bot_core.image_t()
+        colour.size, colour.data = 3, b"rgb"
+        image.utime, image.width, image.height, image.row_stride = UTIME, depth.width, depth.height, 2 * depth.width
+        image.data = zlib.compress(depth.packed()) if zipped else depth.packed()
+        image.size = len(image.data)
+        message.utime, message.n_images = UTIME, 2
+        message.image_types, message.images = [0, 6 if zipped else 4], [colour, image]
+        return message.encode()
+
+    def image_array(self, frame, packing, big_endian=False, metres=False):
+        """lcmt_image_array; packing: 0 none, 1 zlib, 3 PNG."""
+        depth = Depth(frame)
+        message, image = self._drake.lcmt_image_array(), self._drake.lcmt_image()
+        image.width, image.height, image.row_stride = depth.width, depth.height, (4 if metres else 2) * depth.width
+        data = depth.packed(big_endian, metres)
+        image.data = depth.png() if packing == 3 else zlib.compress(data) if packing == 1 else data
+        image.size = len(image.data)
+        image.bigendian, image.pixel_format = big_endian, 5
+        image.channel_type, image.compression_method = 6 if metres else 3, packing
+        for header in (message.header, image.header):
+            header.seq, header.utime, header.frame_name = SEQ, UTIME, NAME
+        message.num_images, message.images = 1, [image]
         return message.encode()
 
     @staticmethod

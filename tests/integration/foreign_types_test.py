@@ -1,14 +1,14 @@
 # SPDX-FileCopyrightText: 2026 The graspd authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Clouds in types of others: an LCM log made by their own generated code, played by lcm-logplayer into the daemon, gives the
+"""Clouds and depth images in types of others: an LCM log made by their own generated code, played by lcm-logplayer into the daemon, gives the
 same handles as our own type, to the bit."""
 import itertools
 import shutil
 import sys
 
 from event_log import write_log
-from foreign_messages import Frame, Messages, own_message
-from harness import CLOUDS, GraspdTest, run_tests, skip_all
+from foreign_messages import Frame, Messages, own_depth_message, own_message
+from harness import CLOUDS, TYPES, GraspdTest, run_tests, skip_all
 
 CONFIG = """
 sources:
@@ -17,6 +17,7 @@ sources:
     policy: all
     queue_length: 100
 """
+CAMERA = "    input: {camera: {fx_px: 131.25, fy_px: 131.25, cx_px: 79.5, cy_px: 59.5}}\n"
 # What an answer says of its frame, whatever type that came as.
 OF_THE_FRAME = ["points_used", "num_segments", "num_candidates", "status", "status_text"]
 
@@ -65,6 +66,35 @@ class ForeignTypes(GraspdTest):
             self.assertEqual([getattr(answer, m) for m in OF_THE_FRAME], [getattr(own, m) for m in OF_THE_FRAME], name)
             self.assertEqual((answer.utime, answer.frame_name), (own.utime, own.frame_name), name)
             self.assertEqual(answer.seq, -1 if name.startswith("drake") else own.seq, name)
+
+    def test_depth(self):
+        make = self.messages
+        messages = {"own": own_depth_message(self.frame)}
+        for zipped in (False, True):
+            messages[f"images_t zipped={zipped}"] = make.images(self.frame, zipped)
+        for packing, big_endian, metres in itertools.product((0, 1, 3), (False, True), (False, True)):
+            if packing == 3 and (metres or big_endian):
+                continue  # a PNG has no such pixels, and its own order of bytes
+            messages[f"drake packing={packing} {big_endian=} {metres=}"] = make.image_array(
+                self.frame, packing, big_endian, metres)
+        answers = self.answers(messages, CONFIG + CAMERA)
+        own = answers.pop("own")
+        self.assertGreater(len(own.handles), 0)
+        for name, answer in answers.items():
+            self.assertEqual(content(answer.handles), content(own.handles), name)
+            self.assertEqual([getattr(answer, m) for m in OF_THE_FRAME], [getattr(own, m) for m in OF_THE_FRAME], name)
+            self.assertEqual(answer.utime, own.utime, name)
+            drake = name.startswith("drake")  # images_t has neither
+            self.assertEqual((answer.seq, answer.frame_name), (own.seq, own.frame_name) if drake else (-1, ""), name)
+
+    def test_depth_without_intrinsics(self):
+        """Refused, with the remedy's name."""
+        answers = self.answers({"bot_core": self.messages.images(self.frame, True),
+                                "drake": self.messages.image_array(self.frame, 3)})
+        for name, answer in answers.items():
+            self.assertEqual(answer.status, TYPES["handle_list_t"].constants["REFUSED"], name)
+            self.assertIn("bad_calibration", answer.status_text)
+            self.assertIn("input.camera of the source", answer.status_text)
 
 
 if __name__ == "__main__":

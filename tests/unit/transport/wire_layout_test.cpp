@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include "bot_core/images_t.hpp"
 #include "bot_core/pointcloud2_t.hpp"
 #include "bot_core/pointcloud_t.hpp"
+#include "drake/lcmt_image_array.hpp"
 #include "drake/lcmt_point_cloud.hpp"
 #include "graspd/sealed_t.hpp"
 #include "sensor_msgs/PointCloud2.hpp"
@@ -31,6 +33,8 @@ TEST(WireLayout, FingerprintsOfOthersAreTheirGeneratedTypes) {
   EXPECT_EQ(kPointcloudFingerprint, static_cast<std::uint64_t>(bot_core::pointcloud_t::getHash()));
   EXPECT_EQ(kSensorMsgsPointCloud2Fingerprint,
             static_cast<std::uint64_t>(sensor_msgs::PointCloud2::getHash()));
+  EXPECT_EQ(kImagesFingerprint, static_cast<std::uint64_t>(bot_core::images_t::getHash()));
+  EXPECT_EQ(kLcmtImageArrayFingerprint, static_cast<std::uint64_t>(drake::lcmt_image_array::getHash()));
 }
 
 TEST(WireLayout, FingerprintStartsEveryMessage) {
