@@ -24,11 +24,12 @@ JAVA = ["java", "-cp", f"{OUT}/java:{OUT}/java/graspd-types.jar:/usr/share/java/
 PYTHON, LUA = [OUT / "python/bin/python"], ["lua5.2"]
 LUA_PATH = {"LUA_PATH": f"{OUT}/lua/?.lua;{OUT}/lua/?/init.lua"}
 TOP = sorted(p.stem for p in GOLDEN.glob("*_t.bin"))
-# Language -> how its listener, its publisher and its golden program are started.
+# Language -> how its listener, its publisher and its golden program are started. JavaScript does not decode: it gets JSON.
 LANGUAGES = {
     "c": ([OUT / "c/listen"], [OUT / "c/publish"], [OUT / "c/golden"]),
     "cpp": ([OUT / "cpp/listen"], [OUT / "cpp/publish"], [OUT / "cpp/golden"]),
     "go": ([OUT / "go/listen"], [OUT / "go/publish"], [OUT / "go/golden"]),
+    "javascript": (["node", OUT / "javascript/build/listen.js"], ["node", OUT / "javascript/build/publish.js"], None),
     "java": (JAVA + ["Listen"], JAVA + ["Publish"], JAVA + ["Golden"]),
     "lua": (LUA + [EXAMPLES / "lua/listen.lua"], LUA + [EXAMPLES / "lua/publish.lua"], LUA + [HERE / "golden.lua"]),
     "python": (PYTHON + [EXAMPLES / "python/listen.py"], PYTHON + [EXAMPLES / "python/publish.py"], PYTHON + [HERE / "golden.py"]),
@@ -58,13 +59,20 @@ def csv_of(answer):
 
 
 class Languages(GraspdTest):
-    def start_foreign(self, command, *arguments):
+    def start_bridge(self):
+        """Its address with the token, for programs that speak no LCM."""
+        bridge = self.start_listening("graspd-bridge", "--port", 0, "--cloud-channel", CLOUDS)
+        return wait_until(lambda: bridge.lines(), "the bridge's address")[0]
+
+    def start_foreign(self, command, *arguments, bridge=""):
         path = shutil.which(str(command[0]))
         self.assertIsNotNone(path, f"no {command[0]}: run tests/cross_language/run")
-        return self.start(path, *command[1:], *arguments, environment=LUA_PATH)
+        return self.start(path, *command[1:], *arguments, environment={**LUA_PATH, "GRASPD_BRIDGE": bridge})
 
     def test_goldens(self):
         for language, (_, _, golden) in LANGUAGES.items():
+            if golden is None:
+                continue
             with self.subTest(language):
                 out = self.folder / language
                 out.mkdir()
@@ -76,11 +84,18 @@ class Languages(GraspdTest):
                     got = json.loads((out / f"{name}.json").read_text(encoding="utf-8"))
                     self.assertTrue(same(want, got), f"{language} {name}: {got}")
 
+    def test_golden_cloud_of_javascript(self):
+        """The one type that goes into the bridge as it is on the wire."""
+        program = self.start_foreign(["node", HERE / "golden.mjs", OUT / "javascript/build", GOLDEN, self.folder])
+        self.assertEqual(program.wait(), 0, program.err)
+        self.assertEqual((self.folder / "point_cloud_t.bin").read_bytes(), (GOLDEN / "point_cloud_t.bin").read_bytes())
+
     def test_listeners(self):
         """All hear the same daemon answer the same log."""
         bus = self.open_bus()
         self.start_daemon(bus, self.write_config(CONFIG))
-        listeners = {language: self.start_foreign(commands[0]) for language, commands in LANGUAGES.items()}
+        bridge = self.start_bridge()
+        listeners = {language: self.start_foreign(commands[0], bridge=bridge) for language, commands in LANGUAGES.items()}
         for language, listener in listeners.items():
             wait_until(lambda one=listener: one.lines() or one.process.poll() is not None, f"{language}'s first line")
             self.assertEqual(listener.lines(), ["frame," + ",".join(COLUMNS)], f"{language}: {listener.err}")
@@ -108,10 +123,11 @@ class Languages(GraspdTest):
         """All send the same cloud, so all get the same handles."""
         bus = self.open_bus()
         self.start_daemon(bus, self.write_config(CONFIG))
+        bridge = self.start_bridge()
         found = {}
         for language, (_, publish, _) in LANGUAGES.items():
             bus.messages.clear()
-            program = self.start_foreign(publish)
+            program = self.start_foreign(publish, bridge=bridge)
             answer = self.await_answers(bus, 1)[0]
             self.assertEqual(program.wait(), 0, program.err)
             self.assertEqual((answer.frame_name, answer.utime, answer.points_in), (language, 1, 4800))
