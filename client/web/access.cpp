@@ -69,7 +69,9 @@ std::optional<Target> parse_target(std::string_view target) {
 }
 
 bool is_loopback(std::string_view address) {
-  return address.starts_with("127.") || address == "::1" || address == "localhost";
+  // A name like 127.example.org is anybody's.
+  const bool is_ipv4 = address.find_first_not_of("0123456789.") == std::string_view::npos;
+  return (is_ipv4 && address.starts_with("127.")) || address == "::1" || address == "localhost";
 }
 
 bool equal_secrets(std::string_view a, std::string_view b) {

@@ -54,8 +54,8 @@ TEST(Host, LocallyOnlyTheLoopbacksNamesAreOurs) {
   const AccessRules local{true, "secret", {}};
   for (const char* host : {"localhost", "localhost:80", "127.0.0.1:8090", "[::1]:80"})
     EXPECT_FALSE(check_host(local, {"/", host, {}, {}})) << host;
-  for (const char* host :
-       {"evil.example", "evil.example:80", "localhost.evil.example", "[", "[fe80::1]", "", "192.168.0.1"})
+  for (const char* host : {"evil.example", "evil.example:80", "localhost.evil.example", "[", "[fe80::1]", "",
+                           "192.168.0.1", "127.example.org"})
     EXPECT_EQ(check_host(local, {"/", host, {}, {}}), WebEvent::kForeignHost) << host;
   EXPECT_EQ(check_host(local, {"/", {}, {}, {}}), WebEvent::kBadRequest);
   EXPECT_FALSE(check_host({false, "secret", {}}, {"/", "robot:80", {}, {}}));
@@ -93,6 +93,7 @@ TEST(Socket, BeyondThisMachineReadingNeedsTheTokenToo) {
   EXPECT_TRUE(is_loopback("::1"));
   EXPECT_FALSE(is_loopback("0.0.0.0"));
   EXPECT_FALSE(is_loopback("::"));
+  EXPECT_FALSE(is_loopback("127.example.org"));
 }
 
 }  // namespace
