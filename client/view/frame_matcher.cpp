@@ -52,7 +52,8 @@ void FrameMatcher::give_if_whole(Channel& channel, MatchedFrame* frame, std::int
   // One that was not worked on is passed over for the next.
   if (frame->list->status == handle_list_t::OVERLOADED) return;
   const bool more_to_come =
-      frame->segmentation.empty() && within(channel.last_segmentation_us, now_us, kSilence_us) &&
+      frame->segmentation.empty() &&
+      (expected_ || within(channel.last_segmentation_us, now_us, kSilence_us)) &&
       (frame->list->status == handle_list_t::OK || frame->list->status == handle_list_t::NO_HANDLES);
   if (!more_to_come) give(channel, frame);
 }

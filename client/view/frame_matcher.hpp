@@ -49,6 +49,8 @@ class FrameMatcher {
                         std::span<const std::byte> message, std::int64_t now_us);
   /// To be called now and then: gives away what waits in vain.
   void look(std::int64_t now_us);
+  /// A segmentation is waited for from the first frame on.
+  void expect_segmentations() { expected_ = true; }
   /// Forgets what waits: the clock has jumped.
   void clear();
 
@@ -70,6 +72,7 @@ class FrameMatcher {
   Ready ready_;
   std::map<std::string, Channel, std::less<>> channels_;
   std::size_t bytes_ = 0;
+  bool expected_ = false;
 };
 
 }  // namespace graspd

@@ -3,16 +3,20 @@
 // graspd-view: what graspd sees, live in the browser.
 #include <CLI/CLI.hpp>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "client/common/frame_publisher.hpp"
 #include "client/common/lcm_loop.hpp"
 #include "client/common/program.hpp"
 #include "client/common/stop_flag.hpp"
+#include "client/log/log_parts.hpp"
+#include "client/view/log_player.hpp"
 #include "client/view/viewer.hpp"
 #include "service/config/config_folders.hpp"
 
@@ -48,6 +52,8 @@ void add_options(CLI::App& app, Options& o) {
   app.add_option("--max-points", o.viewer.frames.max_points, "of larger clouds every n-th point is shown")
       ->check(CLI::Range(1000, 10'000'000))
       ->capture_default_str();
+  app.add_option("--log", o.viewer.log_file, "play this event log instead of listening")
+      ->excludes("--lcm-url");
   app.add_option("--page", o.page, "folder of the page (default: the installed one)");
 }
 
@@ -81,6 +87,11 @@ void subscribe(LcmBus& bus, Viewer& viewer) {
   for (const std::string& channel : others) bus.subscribe(channel, take, kOthers);
 }
 
+void write_address(Viewer& viewer) {
+  const WebServer& web = viewer.pages().web();
+  write_output(web.url() + "#token=" + web.token() + "\n");
+}
+
 int view_live(const CLI::App& app, const Options& o) {
   const std::string url = resolve_lcm_url(o.lcm_url);
   for (const std::string& warning : receive_buffer_warnings(url)) say(app, warning);
@@ -92,12 +103,35 @@ int view_live(const CLI::App& app, const Options& o) {
   viewer.use_control(control, !control_channel.empty());
   subscribe(bus, viewer);
   viewer.pages().start();
-  write_output(viewer.pages().web().url() + "#token=" + viewer.pages().web().token() + "\n");
+  write_address(viewer);
   constexpr std::chrono::milliseconds kTick{20};
   while (!stop_requested()) {
     if (bus.wait(kTick) == LcmBus::Wait::kClosed) return exit_code(app, LoopEnd::kClosed, url);
     viewer.look(wall_clock_us());
   }
+  return kExitOk;
+}
+
+int view_log(const Options& o) {
+  LogPlayer player(list_logs({o.viewer.log_file}));
+  Viewer viewer(o.viewer);
+  if (player.has_segmentations()) viewer.expect_segmentations();
+  viewer.on_player([&](const PlayerCommand& command) { player.obey(command, viewer); });
+  viewer.pages().start();
+  write_address(viewer);
+  std::string shown;
+  int ticks = 0;
+  bool playing = !player.playing();
+  auto tick = std::chrono::steady_clock::now();
+  do {
+    player.advance(tick, viewer);
+    viewer.look(player.now_us());
+    // Now and then, and at once when it stops or starts.
+    const bool changed = std::exchange(playing, player.playing()) != player.playing();
+    std::string state = player.json();
+    if ((changed || ++ticks % 10 == 0) && state != shown) viewer.show_player(shown = std::move(state));
+    tick = std::max(tick + std::chrono::milliseconds(20), std::chrono::steady_clock::now());
+  } while (wait_until(tick));
   return kExitOk;
 }
 
@@ -112,6 +146,6 @@ int main(int argc, char** argv) {
   add_options(app, options);
   return run_program(app, argc, argv, [&] {
     prepare(options);
-    return view_live(app, options);
+    return options.viewer.log_file.empty() ? view_live(app, options) : view_log(options);
   });
 }

@@ -30,6 +30,8 @@ class PageServer {
 
   void start() { web_.start(); }
   [[nodiscard]] WebServer& web() { return web_; }
+  /// That were shown since the start.
+  [[nodiscard]] std::int64_t frames() const { return serial_; }
   [[nodiscard]] std::int64_t pages() const { return static_cast<std::int64_t>(pages_.size()); }
 
   void show(MatchedFrame frame);

@@ -44,6 +44,8 @@ class Viewer {
   void take(const std::string& channel, std::span<const std::byte> message, std::int64_t now_us);
   /// To be called often.
   void look(std::int64_t now_us);
+  /// The log has segmentations.
+  void expect_segmentations() { matcher_.expect_segmentations(); }
   /// A log's clock has jumped.
   void clear();
   /// What a log's player does, as JSON.

@@ -252,7 +252,7 @@ test("the console is clean, and the page comes back when the server does", async
   await stack.end(view);
   await until(async () => (await page.textContent("#connection")) === "lost", "the page to see it");
   const last = await shown(page);
-  view = stack.start("graspd-view", "--port", port, "--token-file", token);
+  view = stack.start("graspd-view", "--port", port, "--token-file", token); // and the page by its old address
   await until(async () => (await page.textContent("#connection")) === "live", "the page to come back");
   await untilShown(page, (state) => Number(state.utime) > Number(last.utime), "new frames");
 });

@@ -33,14 +33,26 @@ export class Connection {
   private withToken = true;
 
   constructor(private readonly listener: Listener) {
-    this.connect();
+    void this.connect();
   }
 
   send(message: object): void {
     if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(message));
   }
 
-  private connect(): void {
+  /** Whether there is a server at all: a socket that is refused does not tell. */
+  private async isThere(): Promise<boolean> {
+    return fetch("/", { method: "HEAD", cache: "no-store" }).then((answer) => answer.ok, () => false);
+  }
+
+  private again(): void {
+    this.listener.state("lost");
+    setTimeout(() => void this.connect(), this.pauseMs);
+    this.pauseMs = Math.min(this.pauseMs * 1.5, LONGEST_PAUSE_MS);
+  }
+
+  private async connect(): Promise<void> {
+    if (!(await this.isThere())) return this.again();
     const token = new URLSearchParams(location.hash.slice(1)).get("token");
     const query = token && this.withToken ? "?token=" + encodeURIComponent(token) : "";
     const scheme = location.protocol === "https:" ? "wss://" : "ws://";
@@ -56,9 +68,7 @@ export class Connection {
       // A server that was started anew has another token: without it there is still something to see.
       if (!opened) this.withToken = !this.withToken;
       else this.withToken = true;
-      this.listener.state("lost");
-      setTimeout(() => this.connect(), this.pauseMs);
-      this.pauseMs = Math.min(this.pauseMs * 1.5, LONGEST_PAUSE_MS);
+      this.again();
     };
     this.socket = socket;
   }

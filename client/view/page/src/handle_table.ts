@@ -51,10 +51,22 @@ export class HandleTable {
     this.render();
   }
   select(id: number): void {
+    const changed = id !== this.selected;
     this.selected = id;
     this.render();
-    this.table.querySelector("tr.selected")?.scrollIntoView({ block: "nearest" });
+    if (changed) this.reveal();
   }
+  /** Scrolls the table alone, and only as far as it must. */
+  private reveal(): void {
+    const row = this.table.querySelector<HTMLElement>("tr.selected");
+    const box = this.table.parentElement;
+    if (!row || !box) return;
+    const head = 26;
+    if (row.offsetTop < box.scrollTop + head) box.scrollTop = row.offsetTop - head;
+    else if (row.offsetTop + row.offsetHeight > box.scrollTop + box.clientHeight)
+      box.scrollTop = row.offsetTop + row.offsetHeight - box.clientHeight;
+  }
+
   /** The one after (or before) the selected one, as they stand here; -1: there is none. */
   neighbour(step: number): number {
     const rows = this.rows();

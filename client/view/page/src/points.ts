@@ -12,7 +12,7 @@ const PALETTE_SIZE = 256;
 
 const VERTEX = `
 uniform vec3 origin, viewpoint, patchHalf;
-uniform float gridStep, pointSize, near, far, hasPatch;
+uniform float gridStep, pointSize, near, far, hasPatch, spread;
 uniform int mode, edgesMarked, selectedSegment;
 uniform vec3 plain, edge, marked;
 uniform mat4 patchInverse;
@@ -20,11 +20,13 @@ uniform sampler2D palette;
 attribute vec3 color;
 attribute vec2 segment;
 varying vec3 shade;
+varying float width;
 ${SCALE_GLSL}
 void main() {
   vec3 p = origin + gridStep * position;
   shade = mode == 0 ? color : mode == 1 ? colorScale(1.0 - (distance(p, viewpoint) - near) / (far - near)) : plain;
-  float size = pointSize;
+  // Points of a sensor are as far apart as they are from it; voxels have one size.
+  float size = pointSize * (spread > 0.0 ? spread * distance(p, viewpoint) : 1.0);
   if (mode == 2) {
     int id = int(segment.x + 0.5);
     int flags = int(segment.y + 0.5);
@@ -40,13 +42,15 @@ void main() {
   vec4 seen = modelViewMatrix * vec4(p, 1.0);
   gl_Position = projectionMatrix * seen;
   if (mode == 3) gl_Position.z += 0.004; // behind what is made of the same points
-  gl_PointSize = clamp(size / -seen.z, 1.0, 24.0);
+  width = clamp(size / -seen.z, 1.0, 24.0);
+  gl_PointSize = width;
 }`;
 
 const FRAGMENT = `
 varying vec3 shade;
+varying float width;
 void main() {
-  if (length(gl_PointCoord - 0.5) > 0.5) discard;
+  if (width > 7.0 && length(gl_PointCoord - 0.5) > 0.5) discard;
   gl_FragColor = vec4(shade, 1.0);
 }`;
 
@@ -69,7 +73,7 @@ class PointSet {
     this.uniforms = {
       origin: vec3(), viewpoint: vec3(), patchHalf: vec3(), plain: { value: new THREE.Color() },
       edge: { value: new THREE.Color() }, marked: { value: new THREE.Color() }, gridStep: { value: 0 },
-      pointSize: { value: 2 }, near: { value: 0 }, far: { value: 1 }, hasPatch: { value: 0 }, mode: { value: 0 },
+      pointSize: { value: 2 }, spread: { value: 0 }, near: { value: 0 }, far: { value: 1 }, hasPatch: { value: 0 }, mode: { value: 0 },
       edgesMarked: { value: 0 }, selectedSegment: { value: -1 }, patchInverse: { value: new THREE.Matrix4() },
       palette: { value: palette },
     };
@@ -112,7 +116,7 @@ export class PointView {
   private readonly cloud: PointSet;
   private readonly segmentation: PointSet;
   private frame: Frame | null = null;
-  private mode: ColorMode = "segment";
+  private mode: ColorMode | null = null; // what was asked for
   private edges = false;
 
   constructor() {
@@ -150,7 +154,8 @@ export class PointView {
   }
   /** What was asked for, or the next best where the frame does not have it. */
   shownMode(): ColorMode {
-    return this.has(this.mode) ? this.mode : this.has("rgb") ? "rgb" : "depth";
+    if (this.mode && this.has(this.mode)) return this.mode;
+    return this.has("rgb") ? "rgb" : this.has("segment") ? "segment" : "depth";
   }
 
   setMode(mode: ColorMode): void {
@@ -172,8 +177,9 @@ export class PointView {
 
   /** pixelsPerMetre: of something one metre away. */
   setPixels(pixelsPerMetre: number): void {
-    // Neighbours of a VGA sensor are about 1.7 mm apart for each metre of distance; a voxel has its own size.
-    this.cloud.uniforms.pointSize.value = pixelsPerMetre * 0.0027;
+    // A depth camera sees about 0.8 steradians.
+    this.cloud.uniforms.pointSize.value = pixelsPerMetre;
+    this.cloud.uniforms.spread.value = 1.25 * Math.sqrt(0.8 / Math.max((this.frame?.points.length ?? 0) / 3, 5000));
     this.segmentation.uniforms.pointSize.value = pixelsPerMetre * (this.frame?.info.segmentation?.voxel_size ?? 0.003) * 1.25;
   }
   setTheme(plain: string, edge: string, marked: string): void {

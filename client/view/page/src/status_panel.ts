@@ -21,7 +21,7 @@ const REFUSALS = ["not_found", "bad_requests", "bad_methods", "bad_paths", "fore
 
 export class StatusPanel {
   private readonly rate = new Chart("clouds", "Hz", 1);
-  private readonly latency = new Chart("latency, median", "ms", 0);
+  private readonly latency = new Chart("latency", "ms", 0);
   private readonly handles = new Chart("handles", "", 0);
   private readonly drawn = new Chart("pictures here", "/s", 0);
   private readonly stages = element("div", { class: "stages" });

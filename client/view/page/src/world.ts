@@ -84,7 +84,6 @@ export class World {
     this.points.show(frame);
     this.glyphs.show(frame.info.list?.handles ?? [], frame.info.list?.gripper ?? null);
     if (first || this.upHasTurned()) {
-      this.center = this.middle();
       this.look(this.view ?? "camera");
     }
     this.resize();
@@ -140,6 +139,7 @@ export class World {
     this.view = view;
     const info = this.frame?.info;
     if (!info) return;
+    this.center = this.middle();
     const up = this.upDirection();
     const eye = vector(info.viewpoint);
     const forward = new THREE.Vector3(0, 0, 1).applyQuaternion(this.cameraRotation());
