@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The graspd authors
 # SPDX-License-Identifier: BSD-3-Clause
 # shellcheck shell=bash
-# ./run demo: a simulated camera, the daemon, a logger and a listener as processes of their own over UDP. Sourced by ./run.
+# ./run demo: a simulated camera, the daemon, a logger, a listener and the live view as processes of their own over UDP. Sourced by ./run.
 
 demo_seconds=15 demo_log=build/demo demo_seed=1 demo_private=no
 demo_group=239.255.76.67
@@ -112,18 +112,40 @@ demo_show_table() {
   fi
 }
 
+# The page's address goes out before the pictures come; the next free port where the usual one is taken.
+demo_start_view() {
+  local port i
+  for port in 8090 0; do
+    demo_start build/bin/graspd-view --config "$demo_log/graspd.yaml" --port "$port" >"$demo_log/view-address" 2>"$demo_log/graspd-view.log"
+    for ((i = 0; i < 100; ++i)); do
+      if [ -s "$demo_log/view-address" ]; then break 2; fi
+      kill -0 "${demo_pids[-1]}" 2>/dev/null || break
+      sleep 0.1
+    done
+  done
+  if [ ! -s "$demo_log/view-address" ]; then
+    say "The live view does not start: $(cat "$demo_log/graspd-view.log")"
+  elif [ "${GRASPD_DEMO_NETWORK:-}" = private ]; then
+    say "The live view runs, too, but in this private network no browser reaches it."
+  else
+    say "Live in the browser: $(cat "$demo_log/view-address")"
+  fi
+}
+
 demo_start_programs() {
   local bin=build/bin
   export LCM_DEFAULT_URL="udpm://$demo_group:7667?ttl=0"
   demo_show_table
   demo_start "$bin/graspd-listen" --format json >"$demo_log/handles.jsonl" 2>"$demo_log/graspd-listen.log"
   demo_start "$bin/graspd-log" --channel 'GRASPD_.*' --max-size 1000 "$demo_log/demo.lcmlog" 2>"$demo_log/graspd-log.log"
-  demo_start "$bin/graspd" 2>"$demo_log/graspd.log"
+  printf 'lcm:\n  control_channel: GRASPD_CONTROL\n' >"$demo_log/graspd.yaml"
+  demo_start "$bin/graspd" --config "$demo_log/graspd.yaml" 2>"$demo_log/graspd.log"
   # Everyone is there when the daemon's health arrives and is in the log.
   if ! "$bin/graspd-status" --format json --count 1 --timeout 20 >/dev/null || ! demo_await_log; then
     cat "$demo_log"/*.log >&2
     fail "the programs do not come up"
   fi
+  demo_start_view
   demo_start "$bin/graspd-simulate" --type depth --rate 10 --new-scene-every 20 --seed "$demo_seed" \
     --width "$demo_width" --truth "$demo_log/truth.jsonl" 2>"$demo_log/graspd-simulate.log"
   demo_camera=${demo_pids[-1]}
