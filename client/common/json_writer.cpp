@@ -33,6 +33,16 @@ std::size_t utf8_length(std::string_view text) {
 
 }  // namespace
 
+std::string valid_utf8(std::string_view text) {
+  std::string valid;
+  while (!text.empty()) {
+    const std::size_t length = utf8_length(text);
+    valid += length > 0 ? text.substr(0, length) : std::string_view("\xef\xbf\xbd");
+    text.remove_prefix(length > 0 ? length : 1);
+  }
+  return valid;
+}
+
 std::string json_quoted(std::string_view text) {
   std::string quoted = "\"";
   while (!text.empty()) {

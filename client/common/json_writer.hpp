@@ -13,6 +13,9 @@ namespace graspd {
 /// A JSON string with its quotes. Bytes that are not UTF-8 become U+FFFD.
 [[nodiscard]] std::string json_quoted(std::string_view text);
 
+/// The same text, with U+FFFD for each byte that is not UTF-8.
+[[nodiscard]] std::string valid_utf8(std::string_view text);
+
 /// Puts commas where they belong; the caller closes what it opens. Numbers that JSON cannot hold become null.
 class JsonWriter {
  public:

@@ -115,8 +115,8 @@ bool EventLogReader::next_head(EventHead& head) {
   return true;
 }
 
-void EventLogReader::read_message(std::vector<std::byte>& bytes) {
-  bytes.resize(static_cast<std::size_t>(message_size_));
+void EventLogReader::read_message(std::vector<std::byte>& bytes, std::int64_t most) {
+  bytes.resize(static_cast<std::size_t>(std::min(most, message_size_)));
   file_.clear();
   file_.seekg(position_ - message_size_);
   file_.read(reinterpret_cast<char*>(bytes.data()), std::ssize(bytes));

@@ -51,7 +51,9 @@ class EventLogReader {
 
   /// As next(), without reading the message; read_message() does, until the next event is asked for.
   [[nodiscard]] bool next_head(EventHead& head);
-  void read_message(std::vector<std::byte>& bytes);
+  /// Or its first `most` bytes.
+  void read_message(std::vector<std::byte>& bytes,
+                    std::int64_t most = std::numeric_limits<std::int64_t>::max());
 
   /// Where the next event is looked for: after the last one, at the end of the part behind the last.
   [[nodiscard]] std::int64_t position() const { return position_; }

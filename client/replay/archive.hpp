@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -32,7 +33,10 @@ class Archive {
   /// False at the end of the last log.
   [[nodiscard]] bool next_head(EventHead& head);
   /// Of the event that next_head() gave last.
-  void read_message(std::vector<std::byte>& bytes) { reader_->read_message(bytes); }
+  void read_message(std::vector<std::byte>& bytes,
+                    std::int64_t most = std::numeric_limits<std::int64_t>::max()) {
+    reader_->read_message(bytes, most);
+  }
 
   [[nodiscard]] ArchivePosition position() const;
   [[nodiscard]] std::int64_t bytes_done() const { return bytes_before_ + reader_position(); }

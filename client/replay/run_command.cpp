@@ -9,6 +9,7 @@
 #include "client/log/log_parts.hpp"
 #include "client/replay/effective_config.hpp"
 #include "client/replay/replay_run.hpp"
+#include "client/table/handle_tables.hpp"
 
 namespace graspd {
 
@@ -27,6 +28,9 @@ void add_run_options(CLI::App& app, RunOptions& o) {
                  "from this time on: seconds since the first event, or @seconds since 1970");
   app.add_option("--to", o.to, "up to this time, exclusive");
   app.add_option("--frames", o.frames, "frames A:B, counted from 0, B exclusive; A: and :B work too");
+  app.add_option(
+      "--table", o.table,
+      "tables of what was found: FILE.parquet with a row a handle, FILE.frames.parquet with a row a frame");
   app.add_option("--threads", o.threads, "frames in work at the same time; 0: one a core")
       ->check(CLI::Range(0, 256))
       ->capture_default_str();
@@ -55,7 +59,9 @@ int run_command(const CLI::App& app, const RunOptions& o) {
   const OldOutput old = o.resume      ? OldOutput::kResume
                         : o.overwrite ? OldOutput::kOverwrite
                                       : OldOutput::kRefuse;
-  return replay_to(app, config, o.output, old) ? kExitOk : kExitFailed;
+  if (!replay_to(app, config, o.output, old)) return kExitFailed;
+  if (!o.table.empty()) (void)write_tables(o.output, o.table);
+  return kExitOk;
 }
 
 }  // namespace graspd

@@ -17,6 +17,7 @@ struct RunOptions {
   std::string from;
   std::string to;
   std::string frames;
+  std::string table;
   int threads = 0;
   double checkpoint_s = 1;
   bool resume = false;
