@@ -26,7 +26,7 @@ void read_fields(ByteReader& reader, std::int32_t count, const DecodeLimits& lim
   for (PackedField& field : fields) {
     field.name = reader.string("fields.name", limits.max_name_length);
     field.offset = reader.int32("fields.offset");
-    field.datatype = reader.int8("fields.datatype");
+    field.datatype = static_cast<std::uint8_t>(reader.int8("fields.datatype"));
     field.count = reader.int32("fields.count");
   }
 }

@@ -39,10 +39,10 @@ class ForeignTypes(GraspdTest):
         self.addCleanup(sys.path.remove, str(types))
         self.messages = Messages(types)
 
-    def answers(self, messages, config=CONFIG):
+    def answers(self, messages, config=CONFIG, channel=CLOUDS):
         """What the daemon answers to these, name -> handle list."""
         log = self.folder / "played.log"
-        write_log(log, [(CLOUDS, message) for message in messages.values()])
+        write_log(log, [(channel, message) for message in messages.values()])
         bus = self.open_bus()
         self.start_daemon(bus, self.write_config(config))
         player = self.start(shutil.which("lcm-logplayer"), log)
@@ -66,6 +66,15 @@ class ForeignTypes(GraspdTest):
             self.assertEqual([getattr(answer, m) for m in OF_THE_FRAME], [getattr(own, m) for m in OF_THE_FRAME], name)
             self.assertEqual((answer.utime, answer.frame_name), (own.utime, own.frame_name), name)
             self.assertEqual(answer.seq, -1 if name.startswith("drake") else own.seq, name)
+
+    def test_channels_of_dimos(self):
+        """Their names have a type's at the end."""
+        channel = "/camera/points#sensor_msgs.PointCloud2"
+        layout = {"big_endian": False, "wide": False, "one_row": False}
+        answers = self.answers({"dimos": self.messages.dimos(self.frame, **layout)},
+                               CONFIG.replace("GRASPD_CLOUD", f'"{channel}"'), channel)
+        self.assertGreater(len(answers["dimos"].handles), 0)
+        self.assertEqual(answers["dimos"].source_channel, channel)
 
     def test_depth(self):
         make = self.messages

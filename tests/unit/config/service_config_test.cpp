@@ -56,6 +56,7 @@ sources:
     gripper: {aperture_m: 0.06, finger_width_m: 0.008, finger_thickness_m: 0.015, finger_length_m: 0.05,
               grasp_depth_m: 0.02, min_gap_m: 0.01}
     sensor_pose: {frame_name: base, quaternion_wxyz: [0.5, 0.5, 0.5, 0.5]}
+    input: {viewpoint_m: [0, 0.5, 1], camera: {fx_px: 528, fy_px: 529, cx_px: 320.5, cy_px: 240}}
 )";
 
 TEST(ServiceConfig, ReadsEverything) {
@@ -74,6 +75,11 @@ TEST(ServiceConfig, ReadsEverything) {
   EXPECT_EQ(others.gripper.gripper.name, "custom");
   EXPECT_EQ(others.gripper.gripper.aperture_m, 0.06f);
   EXPECT_EQ(others.policy, FramePolicy::kLatest);
+  EXPECT_EQ(others.input.viewpoint_m, Eigen::Vector3f(0, 0.5f, 1));
+  EXPECT_TRUE(others.input.camera.given());
+  EXPECT_EQ(others.input.camera.fy_px, 529);
+  EXPECT_EQ(others.input.camera.cx_px, 320.5);
+  EXPECT_FALSE(left.input.camera.given());
 }
 
 TEST(ServiceConfig, SettingsOfTheMethodLieOverEachOther) {
@@ -195,6 +201,12 @@ INSTANTIATE_TEST_SUITE_P(
               "limits.max_sources: fewer than there are sources (got 1, expected at least 2)"},
         Wrong{"sources: [{name: a, channel: A, policy: newest}]",
               "sources[0].policy: unknown value (got newest, expected latest or all)"},
+        Wrong{"sources: [{name: a, channel: A, input: {camera: {fx_px: 500}}}]",
+              "sources[0].input.camera.fy_px: one focal length is given (expected both)"},
+        Wrong{"sources: [{name: a, channel: A, input: {camera: {fx_px: 500, fy_px: 1e-6}}}]",
+              "sources[0].input.camera.fy_px: too small (got 1e-6, expected at least 0.001)"},
+        Wrong{"sources: [{name: a, channel: A, input: {viewpoint_m: [0, 0, 2000]}}]",
+              "sources[0].input.viewpoint_m[2]: out of range (got 2000, expected -1000 to 1000)"},
         Wrong{"sources: [{name: a, channel: A, sensor_pose: {position_m: [0, 0, 1]}}]",
               "sources[0].sensor_pose.frame_name: a pose is given in no frame (expected the name of the "
               "frame it is "
