@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Two logs of handle lists over the same clouds, frame by frame.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "client/compare/distribution.hpp"
+#include "client/compare/frame_difference.hpp"
+
+namespace graspd {
+
+struct Quantity {
+  std::string name;  ///< with its unit
+  Distribution before;
+  Distribution after;
+};
+
+struct ComparedFrame {
+  FrameDifference difference;
+  handle_list_t before;
+  handle_list_t after;
+};
+
+struct RunComparison {
+  std::int64_t frames = 0;       ///< that both runs answered
+  std::int64_t only_before = 0;  ///< answered by the first run alone
+  std::int64_t only_after = 0;
+  std::int64_t same = 0;  ///< frames with the same handles to the bit
+  std::int64_t worse = 0;
+  std::int64_t better = 0;
+  std::map<std::pair<std::string, std::string>, std::int64_t> statuses;  ///< (before, after) -> frames
+  std::vector<Quantity> quantities;
+  std::vector<ComparedFrame> worst;  ///< of the worse ones, the worst first
+};
+
+struct ComparisonOptions {
+  std::size_t num_worst = 10;
+  double tolerance = 0.05;  ///< net losses up to this are neither worse nor better
+};
+
+/// `on_frame` sees every difference, in the order of the second log. Keeps a place in the file for each list
+/// of the first log, and the worst frames. Throws EventLogError.
+[[nodiscard]] RunComparison compare_runs(const std::filesystem::path& before,
+                                         const std::filesystem::path& after, const ComparisonOptions& options,
+                                         const std::function<void(const FrameDifference&)>& on_frame);
+
+}  // namespace graspd
