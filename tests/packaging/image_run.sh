@@ -14,7 +14,7 @@ ok() { printf 'ok: %s\n' "$*"; }
 umount /sys/fs/cgroup/unified 2>/dev/null || true
 "${run[@]}" --name graspd-test localhost/graspd >"$folder/container-daemon.log" 2>&1 &
 daemon=$!
-trap 'podman rm --force --time 1 graspd-test >/dev/null 2>&1 || true' EXIT
+trap 'podman rm --force --time 1 graspd-test graspd-test-view >/dev/null 2>&1 || true' EXIT
 
 "$bin/graspd-status" --once --format json --timeout 60 >/dev/null || fail "no status arrives from the container"
 ok "status outside of the container"
@@ -32,6 +32,17 @@ sleep 1
 wait "$listener" || fail "the listener got no three lists"
 grep -q '"score"' "$folder/handles.jsonl" || fail "lists without a handle"
 ok "$(wc -l <"$folder/handles.jsonl") lists with $(grep -o '"score"' "$folder/handles.jsonl" | wc -l) handles outside of the container"
+
+# The page comes from a container, too.
+"${run[@]}" --name graspd-test-view --entrypoint graspd-view localhost/graspd >"$folder/container-view.log" 2>&1 &
+page=
+for _ in $(seq 100); do
+  page=$(python3 -c 'import urllib.request; print(urllib.request.urlopen("http://127.0.0.1:8090/").read().decode())' 2>/dev/null || true)
+  if [ -n "$page" ]; then break; fi
+  sleep 0.2
+done
+case "$page" in *"<script"*) ok "the view's page" ;; *) fail "no page from the viewer's container" ;; esac
+podman stop --time 10 graspd-test-view >/dev/null
 
 podman stop --time 10 graspd-test >/dev/null
 wait "$daemon" || fail "the daemon ended with $? on SIGTERM"

@@ -85,5 +85,5 @@ make_base
 build_image
 check_image
 run_outside tests/packaging/image_run.sh
-docker-compose -f docker/compose.yaml --profile simulation --profile log config -q
+docker-compose -f docker/compose.yaml --profile simulation --profile log --profile view config -q
 ok "compose.yaml"
