@@ -7,6 +7,7 @@
 #include <utility>
 #include <variant>
 
+#include "client/common/cloud_colors.hpp"
 #include "client/common/cloud_list.hpp"
 #include "client/common/handle_text.hpp"
 #include "client/common/text.hpp"
@@ -88,6 +89,7 @@ class Search {
     found_.channel = event.channel;
     found_.name = log.filename().string() + '#' + std::to_string(frame.seq);
     found_.cloud.cloud = std::move(frame.cloud);
+    found_.cloud.rgb = cloud_colors(event.bytes, DecodeLimits{});
     return true;
   }
 

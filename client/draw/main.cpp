@@ -5,8 +5,8 @@
 #include <tbb/task_arena.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
-#include <map>
 
 #include "client/common/program.hpp"
 #include "client/common/replace_file.hpp"
@@ -20,15 +20,21 @@ struct Options {
   std::vector<std::string> inputs;
   std::string output;
   std::size_t number = 0;
+  std::string view = "camera";
+  std::string color = "segment";
   std::string size = "960x720";
   DetectOptions detect;
   PictureOptions picture;
 };
 
-const std::map<std::string, PictureView> kViews{
-    {"camera", PictureView::kCamera}, {"top", PictureView::kTop}, {"front", PictureView::kFront}};
-const std::map<std::string, PictureColor> kColors{
-    {"segment", PictureColor::kSegment}, {"rgb", PictureColor::kRgb}, {"depth", PictureColor::kDepth}};
+const std::vector<std::string> kViews{"camera", "top", "front"};    // in the order of PictureView
+const std::vector<std::string> kColors{"segment", "rgb", "depth"};  // in the order of PictureColor
+
+/// The value of that name; the options have been checked.
+template <class Choice>
+Choice chosen(const std::vector<std::string>& names, const std::string& name) {
+  return static_cast<Choice>(std::find(names.begin(), names.end(), name) - names.begin());
+}
 
 /// "WxH", each 64 to 8192; else a reason.
 std::string read_size(const std::string& text, PictureOptions& picture) {
@@ -48,13 +54,12 @@ void add_options(CLI::App& app, Options& o) {
   app.add_option("files", o.inputs, "PCD or PLY files, folders of them, or LCM event logs")->required();
   app.add_option("-o,--output", o.output, "the PNG file; - for standard output")->required();
   app.add_option("--frame", o.number, "which one of all frames, from 0")->capture_default_str();
-  app.add_option("--view", o.picture.view, "from the camera, the top or the front")
-      ->transform(CLI::CheckedTransformer(kViews))
-      ->default_str("camera");
-  app.add_option("--color", o.picture.color,
-                 "of the points: by segment, rgb (where the file has it) or depth")
-      ->transform(CLI::CheckedTransformer(kColors))
-      ->default_str("segment");
+  app.add_option("--view", o.view, "where it is seen from")
+      ->check(CLI::IsMember(kViews))
+      ->capture_default_str();
+  app.add_option("--color", o.color, "of the points; rgb where the frame has it, else by depth")
+      ->check(CLI::IsMember(kColors))
+      ->capture_default_str();
   app.add_option("--size", o.size, "WIDTHxHEIGHT [pixels]")
       ->check([&o](const std::string& text) { return read_size(text, o.picture); })
       ->capture_default_str();
@@ -74,9 +79,12 @@ int draw(const CLI::App& app, const Options& o) {
   PictureFrame frame;
   arena.execute([&] { frame = find_drawn_frame(o.inputs, o.number, source, problems); });
   for (const std::string& problem : problems) say(app, problem);
-  if (o.picture.color == PictureColor::kRgb && frame.cloud.rgb.empty())
+  PictureOptions picture = o.picture;
+  picture.view = chosen<PictureView>(kViews, o.view);
+  picture.color = chosen<PictureColor>(kColors, o.color);
+  if (picture.color == PictureColor::kRgb && frame.cloud.rgb.empty())
     say(app, "the frame has no colours: drawn by depth");
-  const std::string png = encode_png(draw_picture(frame, o.picture));
+  const std::string png = encode_png(draw_picture(frame, picture));
   if (o.output == "-") {
     write_output(png);
   } else {

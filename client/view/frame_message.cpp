@@ -12,7 +12,7 @@
 #include "client/common/handle_text.hpp"
 #include "client/common/json_writer.hpp"
 #include "client/detect/explanation.hpp"
-#include "client/view/cloud_colors.hpp"
+#include "client/common/cloud_colors.hpp"
 #include "service/pipeline/handle.hpp"
 #include "service/transport/cloud_decoder.hpp"
 #include "service/transport/segmentation_codec.hpp"

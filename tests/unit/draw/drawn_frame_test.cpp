@@ -74,9 +74,10 @@ TEST(DrawnFrame, ALogsOwnAnswersAreDrawn) {
   header.source_channel = "CLOUD";
   auto other = header;
   other.source_channel = "OTHER";
+  const std::vector<std::uint32_t> colors(cloud().size(), 0x123456);
   {
     EventLogFile log(folder / "run.log", EventLogFile::Existing::kRefuse);
-    log.write(1, "CLOUD", encode(make_point_cloud({1, 5, "camera"}, cloud())));
+    log.write(1, "CLOUD", encode(make_point_cloud({1, 5, "camera"}, cloud(), colors)));
     log.write(2, "NOISE", std::vector<std::byte>(100));
     log.write(3, "CLOUD", encode(make_point_cloud({1, 6, "camera"}, cloud())));
     log.write(4, "HANDLES", encode(make_handle_list(other, {}, {}, Eigen::Isometry3f::Identity())));
@@ -84,9 +85,11 @@ TEST(DrawnFrame, ALogsOwnAnswersAreDrawn) {
   }
   const Found first = find(folder / "run.log", 0);
   EXPECT_EQ(first.frame.title, "run.log#5");
+  EXPECT_EQ(first.frame.cloud.rgb, colors);
   EXPECT_GT(first.frame.list.num_handles, 1) << "nothing was logged: found by the method";
   const Found second = find(folder / "run.log", 1);
   EXPECT_EQ(second.frame.title, "run.log#6");
+  EXPECT_TRUE(second.frame.cloud.rgb.empty());
   ASSERT_EQ(second.frame.list.num_handles, 1);
   EXPECT_EQ(second.frame.list.handles[0].position[0], double{0.1f});
   EXPECT_GT(second.frame.segmentation.num_points, 0);
