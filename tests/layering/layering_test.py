@@ -6,6 +6,7 @@ import tempfile
 import unittest
 
 import layering
+import links
 from cpp_functions import long_blocks
 
 LICENCE = "// SPDX-FileCopyrightText: 2026 The graspd authors\n// SPDX-License-Identifier: BSD-3-Clause\n"
@@ -126,6 +127,15 @@ class Planted(unittest.TestCase):
         self.assertEqual(long_blocks("struct A {\n" + many + "};\n", 60), [])
         braces = 'void f() { g("{", \'{\', 1\'000); }  // {\n/* { */\n#define X {\n' + 'auto r = R"x(\n{{{)x";\n'
         self.assertEqual(long_blocks(braces + many, 60), [])
+
+    def test_broken_links_are_found(self):
+        self.write("README.md", "# A title, `with` code\n[a](service/README.md) [b](#a-title-with-code) [c](https://a.b/c)\n"
+                   "```\n[not a link](nowhere.md)\n```\n[d](service/README.md#there)")
+        self.write("service/README.md", "## There\n[up](../README.md) [folder](pipeline)\n")
+        self.write("build/README.md", "[generated](nowhere.md)")
+        self.assertEqual(list(links.broken_links(self.root)), [])
+        self.write("tests/README.md", "[gone](gone.md) [no heading](../README.md#there) [own](#none)\n")
+        self.assertEqual([link for _, link, _ in links.broken_links(self.root)], ["gone.md", "../README.md#there", "#none"])
 
     def test_an_empty_tree_is_no_success(self):
         with tempfile.TemporaryDirectory() as empty:
