@@ -18,8 +18,8 @@ import { World, type View } from "./world";
 
 const GLYPH_MODES: GlyphMode[] = ["all", "one", "none"];
 const THEMES = {
-  dark: { background: "#11171d", plain: "#5b6670", edge: "#f2f5f7", marked: "#ff9d47" },
-  light: { background: "#f4f5f3", plain: "#b9bfbd", edge: "#1b2226", marked: "#d9480f" },
+  dark: { background: "#11171d", plain: "#4d5964", edge: "#f2f5f7", marked: "#ff9d47", fade: 0.42 },
+  light: { background: "#f4f5f3", plain: "#bcc3c1", edge: "#1b2226", marked: "#d9480f", fade: 1.2 },
 };
 
 type Selection = { kind: "handle" | "segment"; id: number } | null;
@@ -287,10 +287,10 @@ class Page {
   // How it looks.
 
   private applyTheme(): void {
-    const { background, plain, edge, marked } = THEMES[this.theme];
+    const { background, plain, edge, marked, fade } = THEMES[this.theme];
     document.documentElement.dataset.theme = this.theme;
     byId("theme").textContent = this.theme === "dark" ? "Light" : "Dark";
-    this.world.setTheme(background, plain, edge, marked);
+    this.world.setTheme(background, plain, edge, marked, fade);
   }
   private applyModes(): void {
     const { points } = this.world;

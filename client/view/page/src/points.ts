@@ -15,6 +15,7 @@ uniform vec3 origin, viewpoint, patchHalf;
 uniform float gridStep, pointSize, near, far, hasPatch, spread;
 uniform int mode, edgesMarked, selectedSegment;
 uniform vec3 plain, edge, marked;
+uniform float fade;
 uniform mat4 patchInverse;
 uniform sampler2D palette;
 attribute vec3 color;
@@ -24,7 +25,8 @@ varying float width;
 ${SCALE_GLSL}
 void main() {
   vec3 p = origin + gridStep * position;
-  shade = mode == 0 ? color : mode == 1 ? colorScale(1.0 - (distance(p, viewpoint) - near) / (far - near)) : plain;
+  float depth = (distance(p, viewpoint) - near) / (far - near);
+  shade = mode == 0 ? color : mode == 1 ? colorScale(1.0 - depth) : plain * mix(1.0, fade, clamp(depth, 0.0, 1.0));
   // Points of a sensor are as far apart as they are from it; voxels have one size.
   float size = pointSize * (spread > 0.0 ? spread * distance(p, viewpoint) : 1.0);
   if (mode == 2) {
@@ -71,7 +73,7 @@ class PointSet {
   constructor(palette: THREE.Texture) {
     const vec3 = (): THREE.IUniform => ({ value: new THREE.Vector3() });
     this.uniforms = {
-      origin: vec3(), viewpoint: vec3(), patchHalf: vec3(), plain: { value: new THREE.Color() },
+      origin: vec3(), viewpoint: vec3(), patchHalf: vec3(), plain: { value: new THREE.Color() }, fade: { value: 1 },
       edge: { value: new THREE.Color() }, marked: { value: new THREE.Color() }, gridStep: { value: 0 },
       pointSize: { value: 2 }, spread: { value: 0 }, near: { value: 0 }, far: { value: 1 }, hasPatch: { value: 0 }, mode: { value: 0 },
       edgesMarked: { value: 0 }, selectedSegment: { value: -1 }, patchInverse: { value: new THREE.Matrix4() },
@@ -182,8 +184,10 @@ export class PointView {
     this.cloud.uniforms.spread.value = 1.25 * Math.sqrt(0.8 / Math.max((this.frame?.points.length ?? 0) / 3, 5000));
     this.segmentation.uniforms.pointSize.value = pixelsPerMetre * (this.frame?.info.segmentation?.voxel_size ?? 0.003) * 1.25;
   }
-  setTheme(plain: string, edge: string, marked: string): void {
+  /** fade: what is far is darker (below 1) or lighter. */
+  setTheme(plain: string, edge: string, marked: string, fade: number): void {
     for (const set of [this.cloud, this.segmentation]) {
+      set.uniforms.fade.value = fade;
       (set.uniforms.plain.value as THREE.Color).set(plain).convertLinearToSRGB();
       (set.uniforms.edge.value as THREE.Color).set(edge).convertLinearToSRGB();
       (set.uniforms.marked.value as THREE.Color).set(marked).convertLinearToSRGB();

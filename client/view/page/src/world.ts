@@ -89,9 +89,9 @@ export class World {
     this.resize();
   }
 
-  setTheme(background: string, plain: string, edge: string, marked: string): void {
+  setTheme(background: string, plain: string, edge: string, marked: string, fade: number): void {
     this.renderer.setClearColor(background);
-    this.points.setTheme(plain, edge, marked);
+    this.points.setTheme(plain, edge, marked, fade);
     this.glyphs.setTheme(marked);
     this.redraw();
   }
