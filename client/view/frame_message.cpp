@@ -9,10 +9,10 @@
 #include <span>
 #include <vector>
 
+#include "client/common/cloud_colors.hpp"
 #include "client/common/handle_text.hpp"
 #include "client/common/json_writer.hpp"
 #include "client/detect/explanation.hpp"
-#include "client/common/cloud_colors.hpp"
 #include "service/pipeline/handle.hpp"
 #include "service/transport/cloud_decoder.hpp"
 #include "service/transport/segmentation_codec.hpp"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The graspd authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "client/view/cloud_colors.hpp"
+#include "client/common/cloud_colors.hpp"
 #include "service/transport/wire_layout.hpp"
 #include "tests/fuzz/fuzzer.hpp"
 
