@@ -31,8 +31,8 @@ int main(void) {
                                       .fields = fields,
                                       .point_step = 12,
                                       .data_size = sizeof(points),
-                                      .data = (uint8_t *)points};
-  lcm_t *lcm = lcm_create(NULL);
+                                      .data = (uint8_t*)points};
+  lcm_t* lcm = lcm_create(NULL);
   if (!lcm) return 1;
   const int failed = graspd_point_cloud_t_publish(lcm, "GRASPD_CLOUD", &cloud) != 0;
   lcm_destroy(lcm);

@@ -9,8 +9,10 @@
 struct Printer {
   void on_answer(const lcm::ReceiveBuffer*, const std::string&, const graspd::handle_list_t* answer) {
     for (const graspd::handle_t& h : answer->handles) {
-      std::printf("%s,%.6f,%.6f,%.6f,", answer->frame_name.c_str(), h.position[0], h.position[1], h.position[2]);
-      std::printf("%.6f,%.6f,%.6f,%.6f,", h.orientation[0], h.orientation[1], h.orientation[2], h.orientation[3]);
+      std::printf("%s,%.6f,%.6f,%.6f,", answer->frame_name.c_str(), h.position[0], h.position[1],
+                  h.position[2]);
+      std::printf("%.6f,%.6f,%.6f,%.6f,", h.orientation[0], h.orientation[1], h.orientation[2],
+                  h.orientation[3]);
       std::printf("%.6f,%.6f\n", h.width, h.score);
     }
     std::fflush(stdout);

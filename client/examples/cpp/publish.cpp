@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The graspd authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Publishes one cloud, a box on a table seen from above: ../bindings cpp build && g++ publish.cpp -Ibuild -llcm -o publish
+// Publishes one cloud, a box on a table seen from above: ../bindings cpp build && g++ publish.cpp -Ibuild
+// -llcm -o publish
 #include <cstdlib>
 #include <cstring>
 #include <lcm/lcm-cpp.hpp>
