@@ -9,7 +9,7 @@ import struct
 from harness import GraspdTest, run_tests
 
 PROGRAMS = ["graspd", "graspd-detect", "graspd-publish", "graspd-simulate", "graspd-listen", "graspd-log",
-            "graspd-status", "graspd-bridge", "graspd-meldis", "graspd-evaluate", "graspd-bench", "graspd-draw"]
+            "graspd-status", "graspd-view", "graspd-bridge", "graspd-meldis", "graspd-evaluate", "graspd-bench", "graspd-draw"]
 WITHOUT_LCM = ["graspd-detect", "graspd-evaluate", "graspd-bench", "graspd-draw"]
 
 
