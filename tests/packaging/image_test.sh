@@ -33,7 +33,7 @@ END
 
 # The base image from the mirrors that this machine uses: no registry of images is asked.
 make_base() {
-  if podman image exists docker.io/library/debian:bookworm-slim; then return; fi
+  if podman image exists localhost/debian:bookworm-slim; then return; fi
   python3 -B - "$folder/slim.tar" <<'END'
 import pathlib, sys
 sys.path.insert(0, "tests/packaging")
@@ -42,7 +42,7 @@ import debian_root
 slim = [f"--dpkgopt=path-exclude=/usr/share/{part}/*" for part in ("man", "locale", "doc", "info", "lintian")]
 debian_root.make_tar(pathlib.Path(sys.argv[1]), ["ca-certificates"], *slim)
 END
-  podman import --quiet "$folder/slim.tar" docker.io/library/debian:bookworm-slim >/dev/null
+  podman import --quiet "$folder/slim.tar" localhost/debian:bookworm-slim >/dev/null
 }
 
 # An image with /packages alone, in place of the stage that compiles.
