@@ -17,7 +17,7 @@ import man_page  # noqa: E402  pylint: disable=wrong-import-position
 
 BUILD = pathlib.Path(os.environ.get("GRASPD_BUILD", HERE.parents[1] / "build"))
 DOCUMENTS = BUILD / "config/debian"
-PROGRAMS = sorted([BUILD / "bin/graspd", *BUILD.glob("bin/graspd-*")])
+PROGRAMS = [BUILD / "bin" / name for name in os.environ["GRASPD_PROGRAMS"].split()]
 SAMPLE = """Does a thing. And another.
 Usage: folder/sample [OPTIONS] files...
 
