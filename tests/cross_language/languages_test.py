@@ -14,7 +14,7 @@ import sys
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 sys.path.insert(0, str(HERE.parent / "integration"))
-from event_log import write_log  # noqa: E402
+from event_logs import write_messages  # noqa: E402
 from foreign_messages import Frame, own_message  # noqa: E402
 from harness import CLOUDS, HANDLES, TYPES, GraspdTest, run_tests, wait_until  # noqa: E402
 
@@ -108,7 +108,7 @@ class Languages(GraspdTest):
         bus.messages.clear()
         frames = [Frame.of_pcd(p) for p in sorted(self.simulate(3, "--sensor", "kinect", width=160).glob("*.pcd"))]
         log = self.folder / "clouds.log"
-        write_log(log, [(CLOUDS, own_message(frame)) for frame in frames], period_s=0.3)
+        write_messages(log, [(CLOUDS, own_message(frame)) for frame in frames], period_s=0.3)
         player = self.start(shutil.which("lcm-logplayer"), log)
         answers = self.await_answers(bus, len(frames))
         self.assertEqual(player.wait(), 0, player.err)

@@ -30,3 +30,10 @@ def event_bytes(event):
 
 def write_log(path, events):
     path.write_bytes(b"".join(event_bytes(event) for event in events))
+
+
+def write_messages(path, messages, period_s=0.05):
+    """(channel, bytes), so far apart."""
+    start = 1_700_000_000_000_000
+    write_log(path, [Event(number, start + round(number * period_s * 1e6), channel, data)
+                     for number, (channel, data) in enumerate(messages)])

@@ -6,7 +6,7 @@ import itertools
 import shutil
 import sys
 
-from event_log import write_log
+from event_logs import write_messages
 from foreign_messages import Frame, Messages, own_depth_message, own_message
 from harness import CLOUDS, TYPES, GraspdTest, run_tests, skip_all
 
@@ -42,7 +42,7 @@ class ForeignTypes(GraspdTest):
     def answers(self, messages, config=CONFIG, channel=CLOUDS):
         """What the daemon answers to these, name -> handle list."""
         log = self.folder / "played.log"
-        write_log(log, [(channel, message) for message in messages.values()])
+        write_messages(log, [(channel, message) for message in messages.values()])
         bus = self.open_bus()
         self.start_daemon(bus, self.write_config(config))
         player = self.start(shutil.which("lcm-logplayer"), log)

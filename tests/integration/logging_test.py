@@ -7,26 +7,11 @@ import struct
 import subprocess
 import unittest
 
+from event_logs import read_log
 from harness import CLOUDS, HANDLES, STATUS, run_tests, wait_until
 from traffic import TrafficTest
 
 PROBE = "GRASPD_PROBE"
-SYNC = 0xEDA1DA01
-
-
-def read_events(path):
-    """(channel, bytes) of every event of an LCM log, which must be whole."""
-    data, at, events = path.read_bytes(), 0, []
-    while at < len(data):
-        sync, number, _, name_size, size = struct.unpack_from(">IqqII", data, at)
-        if sync != SYNC or number != len(events):
-            raise AssertionError(f"{path}: no event {len(events)} at byte {at}")
-        at += 28
-        events.append((data[at:at + name_size].decode(), data[at + name_size:at + name_size + size]))
-        at += name_size + size
-        if at > len(data):
-            raise AssertionError(f"{path}: the last event is cut off")
-    return events
 
 
 class Logging(TrafficTest):
@@ -45,7 +30,8 @@ class Logging(TrafficTest):
         end = PROBE.encode() + b"end"
         wait_until(lambda: any(f.read_bytes().endswith(end) for f in self.log_files()), "the last event in the log")
         self.assertEqual(logger.stop(signal.SIGINT)[0], 0, logger.err)
-        return [[event for event in read_events(path) if event[0] != PROBE] for path in self.log_files()]
+        return [[(event.channel, event.data) for event in read_log(path) if event.channel != PROBE]
+                for path in self.log_files()]
 
     def test_a_log_is_complete_and_leaves_out_other_channels(self):
         frame = self.record_frames(1)[0]
@@ -103,7 +89,7 @@ class Logging(TrafficTest):
             return logger.process.poll() is not None
         wait_until(ended, "graspd-log to notice that there is no room")
         self.assert_one_line(logger, disk)
-        return [event for path in disk.glob("record*") for event in read_events(path)]
+        return [(event.channel, event.data) for path in disk.glob("record*") for event in read_log(path)]
 
     def test_a_full_disk(self):
         self.assertGreater(len(self.record_until_it_ends(self.mount("size=1m"), 0)), 5)
