@@ -12,11 +12,12 @@ namespace {
 
 using Json = nlohmann::json;
 
+// LCM's constants have no address, so a copy is what an optional can take.
 std::optional<std::int8_t> command_of(const std::string& name) {
-  if (name == "reload") return control_t::RELOAD;
-  if (name == "set") return control_t::SET;
-  if (name == "undo") return control_t::UNDO;
-  if (name == "reset") return control_t::RESET;
+  if (name == "reload") return std::int8_t{control_t::RELOAD};
+  if (name == "set") return std::int8_t{control_t::SET};
+  if (name == "undo") return std::int8_t{control_t::UNDO};
+  if (name == "reset") return std::int8_t{control_t::RESET};
   return std::nullopt;
 }
 
