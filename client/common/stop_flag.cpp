@@ -3,17 +3,20 @@
 #include "client/common/stop_flag.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <csignal>
 #include <thread>
 
 namespace graspd {
 namespace {
 
-// A signal handler reaches nothing but static storage.
-volatile std::sig_atomic_t stop_flag = 0;
+// A signal handler reaches nothing but static storage, and LCM's own thread may be the one that is
+// interrupted.
+std::atomic<bool> stop_flag = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
 
 void request_stop(int) {
-  stop_flag = 1;
+  stop_flag = true;
 }
 
 }  // namespace
@@ -28,7 +31,7 @@ void catch_stop_signals() {
 }
 
 bool stop_requested() {
-  return stop_flag != 0;
+  return stop_flag;
 }
 
 bool wait_until(std::chrono::steady_clock::time_point time) {
