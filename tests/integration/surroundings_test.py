@@ -100,7 +100,7 @@ class Surroundings(TrafficTest):
             wait_until(lambda: seq in [a.seq for a in server.on(HANDLES, TYPES["handle_list_t"])], "an answer")
         self.assertEqual(wait_until(lambda: [s for s in server.on(STATUS, status) if s.reconnects == 5],
                                     "a status that counts all")[0].pid, daemon.process.pid)
-        self.assertEqual(daemon.stop()[0], 0)
+        self.assertEqual(daemon.stop()[0], 0, daemon.err)
         server.stop()
 
     def test_no_tcpq_server_at_the_start(self):
@@ -110,7 +110,7 @@ class Surroundings(TrafficTest):
         self.assertIn("lcm-tcpq-server", daemon.err)
         server.start()
         wait_until(lambda: server.on(STATUS, TYPES["status_t"]), "the first status")
-        self.assertEqual(daemon.stop()[0], 0)
+        self.assertEqual(daemon.stop()[0], 0, daemon.err)
         server.stop()
 
     def test_gives_up_when_told_to(self):

@@ -56,12 +56,14 @@ make_packages_image() {
 }
 
 build_image() {
-  local packages=()
+  local recipe=docker/Dockerfile
   if [ "${GRASPD_COMPILE_IMAGE:-no}" != yes ]; then
     make_packages_image
-    packages=(--build-arg PACKAGES=localhost/graspd-packages)
+    recipe=$folder/Dockerfile
+    sed 's,^FROM build AS packages$,FROM localhost/graspd-packages AS packages,' docker/Dockerfile >"$recipe"
+    grep -q '^FROM localhost/graspd-packages' "$recipe" || fail "docker/Dockerfile has no stage 'packages' any more"
   fi
-  buildah bud --isolation chroot --format docker --pull-never "${packages[@]}" -f docker/Dockerfile -t localhost/graspd . \
+  buildah bud --isolation chroot --format docker --pull-never -f "$recipe" -t localhost/graspd . \
     >"$folder/image.log" 2>&1 || { tail -30 "$folder/image.log" >&2; fail "the image does not build"; }
 }
 
