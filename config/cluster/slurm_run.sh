@@ -19,6 +19,7 @@ for _ in $(seq "${ROUNDS:-3}"); do
   missing=$(graspd-replay missing "$plan")
   [ -n "$missing" ] || break
   echo "slurm_run: shards $missing" >&2
+  # What fails is missing in the next round, and in the end merge says so.
   PLAN=$plan sbatch --wait --array="$missing" --output="$plan/logs/%a.out" "$@" "$here/replay.sbatch" >&2 || true
 done
 exec graspd-replay merge "$plan" -o "$output" --overwrite

@@ -9,14 +9,8 @@ import sys
 from event_logs import write_messages
 from foreign_messages import Frame, Messages, own_depth_message, own_message
 from harness import CLOUDS, TYPES, GraspdTest, run_tests, skip_all
+from playback import CONFIG
 
-CONFIG = """
-sources:
-  - name: camera
-    channel: GRASPD_CLOUD
-    policy: all
-    queue_length: 100
-"""
 CAMERA = "    input: {camera: {fx_px: 131.25, fy_px: 131.25, cx_px: 79.5, cy_px: 59.5}}\n"
 # What an answer says of its frame, whatever type that came as.
 OF_THE_FRAME = ["points_used", "num_segments", "num_candidates", "status", "status_text"]
