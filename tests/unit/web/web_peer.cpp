@@ -10,6 +10,8 @@
 #include <boost/beast/core/buffers_to_string.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <chrono>
+#include <optional>
+#include <stdexcept>
 #include <thread>
 
 namespace graspd {
@@ -65,7 +67,17 @@ void SocketClient::send(const std::string& message, bool is_text) {
 
 std::string SocketClient::receive() {
   boost::beast::flat_buffer buffer;
-  stream_.read(buffer);
+  std::optional<boost::system::error_code> result;
+  stream_.async_read(buffer,
+                     [&result](const boost::system::error_code& error, std::size_t) { result = error; });
+  context_.restart();
+  context_.run_for(std::chrono::minutes(1));
+  if (!result) {
+    stream_.next_layer().cancel();
+    context_.run();  // the read must not outlive its buffer
+    throw std::runtime_error("the server sent nothing for a minute");
+  }
+  if (*result) throw boost::system::system_error(*result);
   return boost::beast::buffers_to_string(buffer.data());
 }
 

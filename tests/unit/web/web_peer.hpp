@@ -26,6 +26,7 @@ class SocketClient {
   explicit SocketClient(std::uint16_t port, const std::string& target = "/socket");
 
   void send(const std::string& message, bool is_text = true);
+  /// The next message; throws std::runtime_error where none comes within a minute.
   [[nodiscard]] std::string receive();
   [[nodiscard]] bool got_text() const { return stream_.got_text(); }
   void close();

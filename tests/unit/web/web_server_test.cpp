@@ -95,6 +95,7 @@ TEST_F(WebServerTest, ASlowClientGetsFewerMessagesAndSlowsNobody) {
   start();
   SocketClient slow(server_->port());
   SocketClient quick(server_->port());
+  ASSERT_TRUE(becomes_true([&] { return server_->clients() == 2; }));  // a broadcast reaches who is there
   const auto big = [](int i) { return binary_message(std::to_string(i) + std::string(1 << 20, ' ')); };
   constexpr int kFrames = 60;
   for (int i = 0; i < kFrames; ++i) {  // the quick one takes each before the next comes
@@ -142,6 +143,7 @@ TEST_F(WebServerTest, SpeaksTheSubprotocolThatIsAskedFor) {
 TEST_F(WebServerTest, EndsWhileClientsAreConnected) {
   start();
   SocketClient one(server_->port()), two(server_->port());
+  ASSERT_TRUE(becomes_true([&] { return server_->clients() == 2; }));
   server_->broadcast_latest(1, binary_message(std::string(8 << 20, ' ')));
   server_.reset();
   EXPECT_ANY_THROW({
