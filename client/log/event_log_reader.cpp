@@ -6,34 +6,35 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <optional>
-#include <span>
+#include <string_view>
 
 #include "service/transport/byte_reader.hpp"
 
 namespace graspd {
 namespace {
 
-constexpr std::array<char, 4> kSyncWord{'\xed', '\xa1', '\xda', '\x01'};
+constexpr std::string_view kSyncWord{"\xed\xa1\xda\x01", 4};
 constexpr std::size_t kHeaderBytes = 28;
+constexpr std::size_t kChunkBytes = 64 << 10;
 constexpr std::int32_t kMaxChannel = 255;  // LCM itself sends 63 characters at most
 constexpr std::int32_t kMaxData = std::int32_t{1} << 30;
 
-struct Header {
+}  // namespace
+
+struct EventLogReader::Header {
   std::int64_t recv_utime = 0;
   std::int32_t channel = 0;  ///< [bytes]
   std::int32_t data = 0;     ///< [bytes]
-
-  [[nodiscard]] std::int64_t event_bytes() const {
-    return static_cast<std::int64_t>(kHeaderBytes) + channel + data;
-  }
 };
 
-/// Nothing unless the bytes start with a header that can be one.
-std::optional<Header> parse_header(std::span<const char> bytes) {
+std::int64_t EventLogReader::event_bytes(const Header& header) {
+  return static_cast<std::int64_t>(kHeaderBytes) + header.channel + header.data;
+}
+
+std::optional<EventLogReader::Header> EventLogReader::parse_header(std::span<const char> bytes) {
   if (bytes.size() < kHeaderBytes || !std::equal(kSyncWord.begin(), kSyncWord.end(), bytes.begin()))
     return std::nullopt;
-  ByteReader reader(std::as_bytes(bytes));
+  ByteReader reader(std::as_bytes(bytes.first(kHeaderBytes)));
   reader.skip("sync word", kSyncWord.size());
   reader.skip("event number", sizeof(std::int64_t));
   Header header;
@@ -44,8 +45,6 @@ std::optional<Header> parse_header(std::span<const char> bytes) {
       header.channel > 0 && header.channel <= kMaxChannel && header.data >= 0 && header.data <= kMaxData;
   return possible ? std::optional(header) : std::nullopt;
 }
-
-}  // namespace
 
 EventLogReader::EventLogReader(std::filesystem::path path, const Part& part) : path_(std::move(path)) {
   std::error_code error;
@@ -59,26 +58,39 @@ EventLogReader::EventLogReader(std::filesystem::path path, const Part& part) : p
   position_ = std::clamp<std::int64_t>(part.begin, 0, end_);
 }
 
-bool EventLogReader::find_event() {
-  std::array<char, 4096> chunk{};
+std::optional<EventLogReader::Header> EventLogReader::header_at(std::int64_t position) {
+  std::array<char, kHeaderBytes> bytes{};
+  file_.clear();
+  file_.seekg(position);
+  if (!file_.read(bytes.data(), std::ssize(bytes))) return std::nullopt;
+  const auto header = parse_header(bytes);
+  return header && position + event_bytes(*header) <= size_ ? header : std::nullopt;
+}
+
+std::optional<EventLogReader::Header> EventLogReader::find_event() {
+  if (position_ >= end_) return std::nullopt;
+  // Nearly always an event follows the last one; what lies between events is read in larger pieces.
+  if (const auto header = header_at(position_)) return header;
+  std::vector<char> chunk(kChunkBytes);
   while (position_ < end_) {
     file_.clear();
     file_.seekg(position_);
     file_.read(chunk.data(), std::ssize(chunk));
     const auto size = static_cast<std::size_t>(std::max<std::streamsize>(file_.gcount(), 0));
-    if (size < kHeaderBytes) return false;
-    // Headers that reach over the chunk's end are looked at again in the next one.
-    for (std::size_t i = 0; i + kHeaderBytes <= size; ++i) {
-      const auto header = parse_header(std::span(chunk).subspan(i, kHeaderBytes));
+    if (size < kHeaderBytes) return std::nullopt;
+    const std::string_view bytes(chunk.data(), size);
+    for (auto i = bytes.find(kSyncWord); i != bytes.npos; i = bytes.find(kSyncWord, i + 1)) {
+      const auto header = parse_header(bytes.substr(i));
       const std::int64_t start = position_ + static_cast<std::int64_t>(i);
-      if (start >= end_) return false;
-      if (!header || start + header->event_bytes() > size_) continue;
+      if (start >= end_) return std::nullopt;
+      if (!header || start + event_bytes(*header) > size_) continue;
       position_ = start;
-      return true;
+      return header;
     }
+    // Headers that reach over the chunk's end are looked at again in the next one.
     position_ += static_cast<std::int64_t>(size - kHeaderBytes + 1);
   }
-  return false;
+  return std::nullopt;
 }
 
 bool EventLogReader::next(LoggedEvent& event) {
@@ -92,26 +104,23 @@ bool EventLogReader::next(LoggedEvent& event) {
 
 bool EventLogReader::next_head(EventHead& head) {
   const std::int64_t expected = position_;
-  if (!find_event()) {
+  const auto header = find_event();
+  if (!header) {
     skipped_bytes_ += std::max<std::int64_t>(end_ - expected, 0);
     position_ = std::max(end_, expected);
     return false;
   }
   skipped_bytes_ += position_ - expected;
-  std::array<char, kHeaderBytes> bytes{};
-  file_.clear();
-  file_.seekg(position_);
-  file_.read(bytes.data(), std::ssize(bytes));
-  const auto header = parse_header(bytes);
-  if (!header) throw EventLogError(path_.string() + ": the log cannot be read: it changes meanwhile");
   head.recv_utime = header->recv_utime;
   head.channel.resize(static_cast<std::size_t>(header->channel));
+  file_.clear();
+  file_.seekg(position_ + static_cast<std::int64_t>(kHeaderBytes));
   file_.read(head.channel.data(), std::ssize(head.channel));
   if (!file_) throw EventLogError(path_.string() + ": the log cannot be read: " + std::strerror(errno));
   head.position = position_;
   head.size = header->data;
   message_size_ = header->data;
-  position_ += header->event_bytes();
+  position_ += event_bytes(*header);
   return true;
 }
 
@@ -128,7 +137,8 @@ bool is_event_log(const std::filesystem::path& path) {
   if (!std::filesystem::is_regular_file(path, error)) return false;
   std::ifstream file(path, std::ios::binary);
   std::array<char, kSyncWord.size()> start{};
-  return file.read(start.data(), std::ssize(start)) && start == kSyncWord;
+  return file.read(start.data(), std::ssize(start)) &&
+         std::equal(start.begin(), start.end(), kSyncWord.begin());
 }
 
 }  // namespace graspd

@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -62,8 +64,14 @@ class EventLogReader {
   [[nodiscard]] std::int64_t skipped_bytes() const { return skipped_bytes_; }
 
  private:
-  /// Moves position_ to the next header that is one; false: there is none.
-  [[nodiscard]] bool find_event();
+  struct Header;
+  [[nodiscard]] static std::int64_t event_bytes(const Header& header);
+  /// Nothing unless the bytes start with a header that can be one.
+  [[nodiscard]] static std::optional<Header> parse_header(std::span<const char> bytes);
+  /// Of an event that is whole, as far as its lengths tell.
+  [[nodiscard]] std::optional<Header> header_at(std::int64_t position);
+  /// Moves position_ to the next header that is one; nothing: there is none.
+  [[nodiscard]] std::optional<Header> find_event();
 
   std::filesystem::path path_;
   std::ifstream file_;

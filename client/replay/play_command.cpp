@@ -90,6 +90,7 @@ struct PlayOptions {
   double start_s = 0;
   bool paused = false;
   bool stay = false;
+  bool scan = false;
 };
 
 /// False: it is to end.
@@ -115,7 +116,7 @@ int play(const CLI::App& app, const PlayOptions& o) {
   LcmBus bus(resolve_lcm_url(o.lcm_url));
   std::optional<Player> made;
   try {
-    made.emplace(std::move(parts), o.channels, o.speed, Clock::now());
+    made.emplace(std::move(parts), o.channels, o.speed, Clock::now(), o.scan);
   } catch (const std::regex_error&) {
     throw ConfigError("--channel: not a regular expression: " + o.channels);
   }
@@ -140,6 +141,7 @@ int play(const CLI::App& app, const PlayOptions& o) {
     }
   }
   if (isatty(STDERR_FILENO) != 0) std::fputc('\n', stderr);
+  for (const std::string& note : player.notes()) say(app, note);
   say(app, printed("%lld messages sent", static_cast<long long>(sent)));
   if (lost > 0) say(app, printed("%lld could not be sent", static_cast<long long>(lost)));
   return lost > 0 ? kExitFailed : kExitOk;
@@ -162,6 +164,7 @@ int play_main(int argc, char** argv) {
       ->check(CLI::NonNegativeNumber);
   app.add_flag("--paused", o.paused, "wait for the command play");
   app.add_flag("--stay", o.stay, "at the end wait for a seek, or quit");
+  app.add_flag("--scan", o.scan, "seek by reading all headers, not by looking for times as in logs in order");
   app.footer(
       "Keys on a terminal: space, left, right, + and -, q. Else lines on standard input: pause, play,\n"
       "seek SECONDS, skip SECONDS, speed FACTOR, quit.");

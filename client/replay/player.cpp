@@ -22,8 +22,15 @@ std::optional<double> number(std::string_view text) {
 
 }  // namespace
 
-Player::Player(std::vector<LogPart> parts, const std::string& channels, double speed, TimePoint now)
-    : parts_(std::move(parts)), channels_(channels), archive_(parts_), speed_(speed), base_time_(now) {
+Player::Player(std::vector<LogPart> parts, const std::string& channels, double speed, TimePoint now,
+               bool scan)
+    : parts_(std::move(parts)),
+      channels_(channels),
+      scan_(scan),
+      search_(parts_),
+      archive_(parts_),
+      speed_(speed),
+      base_time_(now) {
   EventHead head;
   if (archive_.next_head(head)) first_utime_ = head.recv_utime;
   archive_ = Archive(parts_);
@@ -68,7 +75,7 @@ void Player::seek(double position_s, TimePoint now) {
   rebase(now);
   base_s_ = std::max(0.0, position_s);
   const auto utime = first_utime_ + static_cast<std::int64_t>(1e6 * base_s_);
-  archive_ = Archive(parts_);
+  archive_ = Archive(scan_ ? parts_ : search_.rest(utime));
   do advance();
   while (pending_ && pending_->recv_utime < utime);
 }

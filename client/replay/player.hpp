@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "client/replay/archive.hpp"
+#include "client/replay/archive_search.hpp"
 
 namespace graspd {
 
@@ -19,14 +20,18 @@ class Player {
  public:
   using TimePoint = std::chrono::steady_clock::time_point;
 
-  /// `channels`: a regular expression for whole names. Begins to play at `now`.
-  Player(std::vector<LogPart> parts, const std::string& channels, double speed, TimePoint now);
+  /// `channels`: a regular expression for whole names. Begins to play at `now`. `scan`: seeks read all
+  /// headers from the start on.
+  Player(std::vector<LogPart> parts, const std::string& channels, double speed, TimePoint now,
+         bool scan = false);
 
   /// When the next event is due; nothing while paused, and at the end.
   [[nodiscard]] std::optional<TimePoint> due() const;
   [[nodiscard]] bool ended() const { return !pending_; }
   [[nodiscard]] bool paused() const { return paused_; }
   [[nodiscard]] double speed() const { return speed_; }
+  /// Logs that seeks have to read whole, and why; see ArchiveSearch.
+  [[nodiscard]] std::vector<std::string> notes() const { return search_.notes(); }
   /// Of the log's time since its first event, now [s].
   [[nodiscard]] double position_s(TimePoint now) const;
 
@@ -43,6 +48,8 @@ class Player {
 
   std::vector<LogPart> parts_;
   std::regex channels_;
+  bool scan_;
+  ArchiveSearch search_;
   Archive archive_;
   std::optional<EventHead> pending_;
   std::int64_t first_utime_ = 0;

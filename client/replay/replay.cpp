@@ -40,9 +40,11 @@ Replay::Replay(ReplayConfig config, ReplayOutput& output)
       output_(output),
       channels_(config_.service, config_.keep, clock_),
       state_(output.start()),
-      archive_(config_.parts, state_.input),
-      frames_read_(state_.frames_seen),
+      archive_(config_.reading.empty() ? config_.parts : config_.reading, state_.input),
       threads_(config_.threads) {
+  const bool fresh = state_.input.part == 0 && state_.input.offset < 0;
+  if (fresh) state_.frames_seen = config_.frames_before;
+  frames_read_ = state_.frames_seen;
   if (const std::string& file = config_.service.authentication.key_file; !file.empty())
     keys_ = load_seal_keys(file);
 }

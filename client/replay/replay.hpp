@@ -28,6 +28,8 @@ struct ReplayConfig {
   Selection selection;
   bool times = false;  ///< lists carry the measured times, which differ from run to run; else zeros
   // The output does not depend on these.
+  std::vector<LogPart> reading;    ///< what is read of each of the parts; empty: all of it
+  std::int64_t frames_before = 0;  ///< clouds of sources that stand before what is read
   int threads = 1;
   double checkpoint_s = 1;
 };

@@ -8,6 +8,7 @@
 #include "client/common/program.hpp"
 #include "client/log/log_parts.hpp"
 #include "client/replay/effective_config.hpp"
+#include "client/replay/reading.hpp"
 #include "client/replay/replay_run.hpp"
 #include "client/table/handle_tables.hpp"
 
@@ -27,7 +28,14 @@ void add_run_options(CLI::App& app, RunOptions& o) {
   app.add_option("--from", o.from,
                  "from this time on: seconds since the first event, or @seconds since 1970");
   app.add_option("--to", o.to, "up to this time, exclusive");
-  app.add_option("--frames", o.frames, "frames A:B, counted from 0, B exclusive; A: and :B work too");
+  auto* frames =
+      app.add_option("--frames", o.frames, "frames A:B, counted from 0, B exclusive; A: and :B work too");
+  auto* index = app.add_option("--index", o.places.index_file,
+                               "for --frames: where frames are in these logs, written if it is not there");
+  index->needs(frames);
+  app.add_flag("--scan", o.places.scan,
+               "read all headers from the start, instead of looking for times as in logs that are in order")
+      ->excludes(index);
   app.add_option(
       "--table", o.table,
       "tables of what was found: FILE.parquet with a row a handle, FILE.frames.parquet with a row a frame");
@@ -53,6 +61,7 @@ int run_command(const CLI::App& app, const RunOptions& o) {
   for (const auto& log : list_logs(o.logs)) config.parts.push_back({log});
   config.keep = o.keep;
   config.selection = parse_selection(o.from, o.to, o.frames, config.parts);
+  for (const std::string& note : find_reading(config, o.places)) say(app, note);
   config.times = o.times;
   config.threads = replay_threads(o.threads);
   config.checkpoint_s = o.checkpoint_s;

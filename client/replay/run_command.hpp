@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "client/replay/reading.hpp"
+
 namespace graspd {
 
 struct RunOptions {
@@ -17,6 +19,7 @@ struct RunOptions {
   std::string from;
   std::string to;
   std::string frames;
+  PlaceOptions places;
   std::string table;
   int threads = 0;
   double checkpoint_s = 1;

@@ -5,6 +5,7 @@ import hashlib
 import json
 import os
 import random
+import re
 import signal
 import time
 
@@ -24,10 +25,10 @@ def without_times(data):
 
 
 class ReplayTest(GraspdTest):
-    def simulate_log(self, frames, *options, width=128, name="in.log"):
+    def simulate_log(self, frames, *options, width=128, rate=10, name="in.log"):
         path = self.folder / name
         self.run_program("graspd-simulate", "--log", path, "--frames", frames, "--type", "depth", "--width", width,
-                         "--new-scene-every", 2, "--rate", 10, *options)
+                         "--new-scene-every", 2, "--rate", rate, *options)
         return path
 
     def replay(self, *arguments, output="out.log", code=0):
@@ -106,6 +107,51 @@ class Output(ReplayTest):
             with self.subTest(options):
                 part = self.replay(log, *options, "--overwrite", output="part.log")
                 self.assertEqual([e.data for e in read_log(part)], lists[first:end])
+
+    def test_times_are_found_without_reading_the_log(self):
+        # 41 seconds between frames of 150 kB; the second of two logs.
+        stem = self.simulate_log(240, "--log-part", 20, "--scene", "empty", width=320, rate=1 / 41, name="long")
+        logs = sorted(self.folder.glob("long.*"))
+        self.assertEqual(len(logs), 2)
+        for options, frames in ((["--from", 41 * 200, "--to", 41 * 203 - 1], 3), (["--from", 41 * 238 + 1], 1),
+                                (["--to", "41.5"], 2), (["--from", 41 * 300], 0)):
+            with self.subTest(options):
+                found = self.replay(stem, *options, "--keep", ".*", "--overwrite", output="found.log")
+                looked_at, of = map(float, re.search(r"([\d.]+) of ([\d.]+) MB are looked at", self.last.err).groups())
+                self.assertLess(looked_at, 3)
+                self.assertGreater(of, 30)
+                scanned = self.replay(stem, *options, "--keep", ".*", "--scan", "--overwrite", output="scanned.log")
+                self.assertNotIn("looked at", self.last.err)
+                self.assertEqual(found.read_bytes(), scanned.read_bytes())
+                self.assertEqual(len(read_log(found)), 2 * frames)
+                # The same run, whatever way it finds its place.
+                self.replay(stem, *options, "--keep", ".*", "--scan", "--resume", output="found.log")
+                self.assertIn("complete already", self.last.err)
+
+    def test_frames_are_found_with_an_index(self):
+        stem = self.simulate_log(240, "--log-part", 20, "--scene", "empty", width=320, name="long")
+        index = self.folder / "frames.json"
+        for number, frames in enumerate(("200:203", "238:", ":2", "300:")):
+            with self.subTest(frames):
+                found = self.replay(stem, "--frames", frames, "--index", index, output=f"found{number}.log")
+                self.assertEqual("index of the frames written" in self.last.err, number == 0)
+                scanned = self.replay(stem, "--frames", frames, output=f"scanned{number}.log")
+                self.assertEqual(found.read_bytes(), scanned.read_bytes())
+        self.assertLess(index.stat().st_size, 1000)
+        index.write_text("{}", encoding="utf-8")
+        self.replay(stem, "--frames", "1:2", "--index", index, output="no.log", code=1)
+        self.assertIn("not an index", self.last.err)
+        self.replay(stem, "--index", index, output="no.log", code=2)
+
+    def test_where_times_go_backwards_all_is_read(self):
+        events = read_log(self.simulate_log(6))
+        # The clock is put back by an hour between frames 2 and 3.
+        later = [event._replace(utime=event.utime + 3600_000_000) for event in events[:3]]
+        log = self.folder / "stepped.log"
+        write_log(log, later + events[3:])
+        found = self.replay(log, "--from", f"@{later[1].utime * 1e-6:.6f}", "--keep", CLOUDS)
+        self.assertIn("times go backwards", self.last.err)
+        self.assertEqual([e.data for e in read_log(found) if e.channel == CLOUDS], [e.data for e in later[1:]])
 
     def test_an_output_is_not_replaced_unasked(self):
         log = self.simulate_log(2)
