@@ -21,6 +21,7 @@ struct Options {
   std::string output;
   std::vector<std::string> clouds;
   std::string config;
+  std::string key_file;
   ComparisonOptions comparison;
   double max_worse = 1;
 };
@@ -32,6 +33,7 @@ void add_options(CLI::App& app, Options& o) {
   app.add_option("-o,--output", o.output,
                  "folder for report.md, report.html, frames.csv (a row a frame) and pictures");
   app.add_option("--clouds", o.clouds, "the logs that both runs were over, for pictures of the worst frames");
+  app.add_option("--key", o.key_file, "opens signed clouds (default: authentication.key_file)");
   app.add_option("--config", o.config,
                  "the daemon's configuration, for where sensors are (default: its defaults)");
   app.add_option("--worst", o.comparison.num_worst, "frames listed and drawn, the worst first")
@@ -70,7 +72,8 @@ int compare(const CLI::App& app, const Options& o) {
   if (!o.output.empty()) {
     csv.close();
     if (!csv) throw std::runtime_error((folder / "frames.csv").string() + ": cannot be written");
-    const ServiceConfig config = o.config.empty() ? ServiceConfig{} : load_service_config(o.config);
+    ServiceConfig config = o.config.empty() ? ServiceConfig{} : load_service_config(o.config);
+    if (!o.key_file.empty()) config.authentication.key_file = o.key_file;
     if (!o.clouds.empty()) report.pictures = draw_worst(comparison, list_logs(o.clouds), config, folder);
     replace_file(folder / "report.md", markdown_report(report));
     replace_file(folder / "report.html", html_report(report));

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "client/common/replace_file.hpp"
+#include "client/common/sealed_message.hpp"
 #include "client/common/text.hpp"
 #include "client/draw/picture.hpp"
 #include "client/log/event_log_reader.hpp"
@@ -43,15 +44,17 @@ std::vector<FramePictures> draw_worst(const RunComparison& comparison,
   for (std::size_t i = 0; i < comparison.worst.size(); ++i)
     wanted.emplace(comparison.worst[i].difference.key, i);
   std::map<FrameKey, std::int64_t> repeats;
+  const std::vector<SealKey> keys = seal_keys_of(config.authentication.key_file);
   const DecodeLimits& limits = config.limits.decode;
   EventHead head;
-  std::vector<std::byte> message;
+  std::vector<std::byte> bytes;
   for (const auto& log : clouds) {
     EventLogReader reader(log);
     while (!wanted.empty() && reader.next_head(head)) {
       const std::size_t source = first_source(config, head.channel);
       if (source == config.sources.size()) continue;
-      reader.read_message(message);
+      reader.read_message(bytes);
+      const auto message = opened(keys, head.channel, bytes);
       const FrameHeader header = peek_header(message, limits);
       FrameKey key{head.channel, header.utime, header.seq, 0};
       key.repeat = repeats[key]++;

@@ -13,11 +13,14 @@ std::string effective_config(ServiceConfig config) {
   return print(config);
 }
 
-ServiceConfig load_replay_config(const std::string& file, const std::string& gripper) {
+ServiceConfig load_replay_config(const std::string& file, const std::string& gripper,
+                                 const std::string& key_file) {
   ConfigLayers layers;
   layers.file = file;
   layers.gripper = gripper;
-  return load_layers(layers);
+  ServiceConfig config = load_layers(layers);
+  if (!key_file.empty()) config.authentication.key_file = std::filesystem::absolute(key_file).string();
+  return config;
 }
 
 }  // namespace graspd

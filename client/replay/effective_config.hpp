@@ -11,7 +11,9 @@ namespace graspd {
 
 [[nodiscard]] std::string effective_config(ServiceConfig config);
 
-/// The configuration of a daemon that is given these; both may be empty.
-[[nodiscard]] ServiceConfig load_replay_config(const std::string& file, const std::string& gripper);
+/// The configuration of a daemon that is given these; all may be empty. `key_file` is its
+/// authentication.key_file.
+[[nodiscard]] ServiceConfig load_replay_config(const std::string& file, const std::string& gripper,
+                                               const std::string& key_file);
 
 }  // namespace graspd

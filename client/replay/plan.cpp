@@ -11,6 +11,7 @@
 #include "client/common/replace_file.hpp"
 #include "client/common/text.hpp"
 #include "client/replay/effective_config.hpp"
+#include "service/transport/seal.hpp"
 #include "service/transport/wire_layout.hpp"
 
 namespace graspd {
@@ -43,11 +44,15 @@ void coarsen(std::vector<Block>& blocks) {
 }
 
 std::int64_t estimated_points(Archive& archive, const EventHead& head) {
-  constexpr std::int64_t kFingerprint = 8, kDepthBytes = 2, kPointBytes = 16;
+  constexpr std::int64_t kDepthBytes = 2, kPointBytes = 16;
+  // In a signed message the inner one begins where its signature's head ends.
+  constexpr std::size_t kSealHead = kSealBytes - kMacBytes;
   std::vector<std::byte> start;
-  archive.read_message(start, kFingerprint);
-  const bool depth = fingerprint(start) == kDepthImageFingerprint;
-  return std::max<std::int64_t>(1, head.size / (depth ? kDepthBytes : kPointBytes));
+  archive.read_message(start, kSealHead + kFingerprintBytes);
+  const bool sealed = fingerprint(start) == kSealedFingerprint && start.size() >= kSealHead;
+  const bool depth = fingerprint(std::span(start).subspan(sealed ? kSealHead : 0)) == kDepthImageFingerprint;
+  const std::int64_t bytes = head.size - (sealed ? static_cast<std::int64_t>(kSealBytes) : 0);
+  return std::max<std::int64_t>(1, bytes / (depth ? kDepthBytes : kPointBytes));
 }
 
 std::vector<Block> find_blocks(const std::vector<LogPart>& parts, ChannelTable& channels) {
@@ -204,7 +209,7 @@ Plan load_plan(const std::filesystem::path& folder) {
 
 ReplayConfig shard_config(const std::filesystem::path& folder, const Plan& plan, std::size_t shard) {
   ReplayConfig config;
-  config.service = load_replay_config((folder / "config.yaml").string(), "");
+  config.service = load_replay_config((folder / "config.yaml").string(), "", "");
   config.parts = plan.shards.at(shard).parts;
   config.keep = plan.keep;
   return config;

@@ -53,16 +53,17 @@ int work_on_shard(const CLI::App& app, const std::string& folder, std::size_t sh
 int plan_main(int argc, char** argv) {
   CLI::App app("Splits logs into shards of equal work.", "graspd-replay plan");
   std::vector<std::string> logs;
-  std::string folder, config, gripper, keep;
+  std::string folder, config, gripper, key_file, keep;
   std::size_t shards = 1;
   app.add_option("logs", logs, "event logs, as for graspd-replay")->required();
   app.add_option("-o,--output", folder, "folder for the plan and the shards' outputs")->required();
   app.add_option("--shards", shards, "how many")->check(CLI::Range(1, 1'000'000))->capture_default_str();
   app.add_option("--config", config, "the daemon's configuration (default: its defaults)");
   app.add_option("--gripper", gripper, "name of an installed gripper, or a gripper file, for all sources");
+  app.add_option("--key", key_file, "opens signed clouds; every task needs the file, which is not copied");
   app.add_option("--keep", keep, "original channels that go into the output too");
   return run_program(app, argc, argv, [&] {
-    const ServiceConfig service = load_replay_config(config, gripper);
+    const ServiceConfig service = load_replay_config(config, gripper, key_file);
     const Plan plan = make_plan(list_logs(logs), service, keep, shards);
     save_plan(folder, plan, service);
     say(app, printed("%zu shards, %lld frames in %zu logs", plan.shards.size(),

@@ -10,6 +10,7 @@
 #include <cstdio>
 
 #include "client/common/program.hpp"
+#include "client/common/sealed_message.hpp"
 #include "client/common/stop_flag.hpp"
 #include "client/common/text.hpp"
 #include "client/log/log_parts.hpp"
@@ -85,6 +86,7 @@ class Controls {
 struct PlayOptions {
   std::vector<std::string> logs;
   std::string lcm_url;
+  std::string key_file;
   std::string channels = ".*";
   double speed = 1;
   double start_s = 0;
@@ -124,6 +126,7 @@ int play(const CLI::App& app, const PlayOptions& o) {
   if (o.start_s > 0) (void)player.obey(printed("seek %.9g", o.start_s), Clock::now());
   if (o.paused) (void)player.obey("pause", Clock::now());
   Controls controls;
+  const std::vector<SealKey> keys = seal_keys_of(o.key_file);
   std::int64_t sent = 0, lost = 0;
   bool goes_on = true;
   while (goes_on && !stop_requested() && (o.stay || !player.ended())) {
@@ -137,7 +140,7 @@ int play(const CLI::App& app, const PlayOptions& o) {
     show(player);
     if (const auto now_due = player.due(); goes_on && now_due && *now_due <= Clock::now()) {
       const LoggedEvent event = player.take();
-      ++(bus.publish(event.channel, event.bytes) ? sent : lost);
+      ++(bus.publish(event.channel, opened(keys, event.channel, event.bytes)) ? sent : lost);
     }
   }
   if (isatty(STDERR_FILENO) != 0) std::fputc('\n', stderr);
@@ -157,6 +160,7 @@ int play_main(int argc, char** argv) {
   app.add_option("logs", o.logs, "event logs, as for graspd-replay")->required();
   app.add_option("-c,--channel", o.channels, "channels to send: a regular expression for the whole name")
       ->capture_default_str();
+  app.add_option("--key", o.key_file, "send what signed messages (sealed_t) hold");
   app.add_option("--speed", o.speed, "times as fast as it was")
       ->check(CLI::Range(0.01, 1000.0))
       ->capture_default_str();

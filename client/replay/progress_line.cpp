@@ -28,6 +28,11 @@ ProgressLine::~ProgressLine() {
   if (shown_) std::fputc('\n', stderr);
 }
 
+void ProgressLine::clear() {
+  if (shown_) std::fputs("\r\x1b[K", stderr);
+  shown_ = false;
+}
+
 void ProgressLine::show(std::int64_t frames, std::int64_t done, std::int64_t all) {
   if (!terminal_) return;
   if (first_frames_ < 0) {

@@ -16,6 +16,8 @@ class ProgressLine {
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
+  /// For a line of text to come.
+  void clear();
   /// At most ten times a second. `frames` and `done` count from where the run has gone on.
   void show(std::int64_t frames, std::int64_t done, std::int64_t all);
 

@@ -6,12 +6,13 @@
 #include <utility>
 
 #include "client/common/handle_text.hpp"
+#include "client/common/sealed_message.hpp"
 #include "client/common/sha256.hpp"
 #include "client/common/stop_flag.hpp"
 #include "client/replay/effective_config.hpp"
 #include "service/transport/cloud_decoder.hpp"
 #include "service/transport/handle_list_codec.hpp"
-#include "service/transport/seal_keys.hpp"
+#include "service/transport/wire_layout.hpp"
 
 namespace graspd {
 namespace {
@@ -45,8 +46,7 @@ Replay::Replay(ReplayConfig config, ReplayOutput& output)
   const bool fresh = state_.input.part == 0 && state_.input.offset < 0;
   if (fresh) state_.frames_seen = config_.frames_before;
   frames_read_ = state_.frames_seen;
-  if (const std::string& file = config_.service.authentication.key_file; !file.empty())
-    keys_ = load_seal_keys(file);
+  keys_ = seal_keys_of(config_.service.authentication.key_file);
 }
 
 bool Replay::run(const OnProgress& on_progress) {
@@ -89,6 +89,7 @@ bool Replay::take_next() {
     item.use = &use;
     item.head = std::move(head);
     waiting_bytes_ += item.head.size;
+    if (use.processor && keys_.empty() && fingerprint(item.message.bytes) == kSealedFingerprint) ++unopened_;
     if (use.processor) item.answer = threads_.start([this, &item] { return answer(item); });
     return true;
   }

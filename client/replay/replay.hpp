@@ -56,6 +56,8 @@ class Replay {
   [[nodiscard]] bool run(const OnProgress& on_progress);
 
   [[nodiscard]] const ReplayState& state() const { return state_; }
+  /// Clouds that are signed where there is no key; they are refused.
+  [[nodiscard]] std::int64_t unopened() const { return unopened_; }
 
  private:
   /// An event on its way through.
@@ -84,6 +86,7 @@ class Replay {
   bool ended_ = false;
   std::int64_t frames_read_ = 0;
   std::int64_t waiting_bytes_ = 0;
+  std::int64_t unopened_ = 0;
   Clock::TimePoint next_checkpoint_;
   std::deque<Item> items_;
   FrameThreads threads_;  // last: its work uses the rest

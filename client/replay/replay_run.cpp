@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "client/replay/replay_run.hpp"
 
+#include <utility>
+
 #include "client/common/program.hpp"
 #include "client/common/text.hpp"
 #include "client/replay/progress_line.hpp"
@@ -41,10 +43,14 @@ std::optional<Receipt> replay_to(const CLI::App& app, const ReplayConfig& config
   const auto begin = std::chrono::steady_clock::now();
   Replay replay(config, output);
   std::int64_t first_bytes = -1, bytes = 0;
-  bool finished = false;
+  bool finished = false, told = false;
   {
     ProgressLine line;
     finished = replay.run([&](const ReplayProgress& progress) {
+      if (replay.unopened() > 0 && !std::exchange(told, true)) {
+        line.clear();
+        say(app, "signed clouds (sealed_t) are refused without the key that opens them: --key FILE");
+      }
       if (first_bytes < 0) first_bytes = progress.bytes_done;
       bytes = progress.bytes_done - first_bytes;
       line.show(progress.state.frames, progress.bytes_done, progress.bytes_in_all);
@@ -55,6 +61,9 @@ std::optional<Receipt> replay_to(const CLI::App& app, const ReplayConfig& config
   std::optional<Receipt> receipt;
   if (finished) receipt = output.finish(replay.state());
   say_what_was_done(app, output.start(), replay.state(), seconds, bytes);
+  if (replay.unopened() > 0)
+    say(app, printed("%lld clouds are signed and were refused: --key FILE opens them",
+                     static_cast<long long>(replay.unopened())));
   if (!finished) say(app, file.string() + ": stopped; --resume goes on");
   return receipt;
 }

@@ -22,6 +22,8 @@ void add_run_options(CLI::App& app, RunOptions& o) {
   app.add_option("-o,--output", o.output, "event log of the handle lists")->required();
   app.add_option("--config", o.config, "the daemon's configuration (default: its defaults)");
   app.add_option("--gripper", o.gripper, "name of an installed gripper, or a gripper file, for all sources");
+  app.add_option("--key", o.key_file,
+                 "opens signed clouds (sealed_t), however old they are; only signed ones are taken then");
   app.add_option("--keep", o.keep,
                  "original channels that go into the output too: a regular expression for the whole name; "
                  "channels that the handle lists go to are never kept");
@@ -57,7 +59,7 @@ int replay_threads(int wanted) {
 
 int run_command(const CLI::App& app, const RunOptions& o) {
   ReplayConfig config;
-  config.service = load_replay_config(o.config, o.gripper);
+  config.service = load_replay_config(o.config, o.gripper, o.key_file);
   for (const auto& log : list_logs(o.logs)) config.parts.push_back({log});
   config.keep = o.keep;
   config.selection = parse_selection(o.from, o.to, o.frames, config.parts);

@@ -15,6 +15,7 @@ struct RunOptions {
   std::string output;
   std::string config;
   std::string gripper;
+  std::string key_file;
   std::string keep;
   std::string from;
   std::string to;
