@@ -28,8 +28,10 @@ struct Options {
 
 void add_options(CLI::App& app, Options& o) {
   add_version(app);
-  app.add_option("before", o.before, "event log with the first run's handle lists")->required();
-  app.add_option("after", o.after, "event log with the second run's")->required();
+  app.add_option("before", o.before,
+                 "first run: event log with its handle lists, or FILE.parquet of graspd-replay --table")
+      ->required();
+  app.add_option("after", o.after, "second run: likewise")->required();
   app.add_option("-o,--output", o.output,
                  "folder for report.md, report.html, frames.csv (a row a frame) and pictures");
   app.add_option("--clouds", o.clouds, "the logs that both runs were over, for pictures of the worst frames");

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
+#include <variant>
 
 #include "client/log/event_log_reader.hpp"
+#include "client/table/handle_tables_reader.hpp"
 #include "service/transport/handle_list_codec.hpp"
 
 namespace graspd {
@@ -25,36 +28,78 @@ class Keys {
   std::map<FrameKey, std::int64_t> repeats_;
 };
 
-/// The handle lists of a log, with where they are.
-class Lists {
+/// The handle lists of a log; a place is where an event begins.
+class LogLists {
  public:
-  explicit Lists(const std::filesystem::path& path) : reader_(path) {}
+  explicit LogLists(const std::filesystem::path& path) : path_(path), reader_(path) {}
 
-  std::optional<handle_list_t> next(std::int64_t& position) {
+  std::optional<handle_list_t> next(std::int64_t& place) {
     EventHead head;
     std::vector<std::byte> message;
     while (reader_.next_head(head)) {
       reader_.read_message(message);
       if (auto list = decode_handle_list(message)) {
-        position = head.position;
+        place = head.position;
         return list;
       }
     }
     return std::nullopt;
   }
 
+  [[nodiscard]] handle_list_t at(std::int64_t place) const {
+    EventLogReader reader(path_, {place});
+    LoggedEvent event;
+    std::optional<handle_list_t> list;
+    if (reader.next(event)) list = decode_handle_list(event.bytes);
+    if (!list) throw EventLogError(path_.string() + ": the log cannot be read: it changes meanwhile");
+    return *std::move(list);
+  }
+
  private:
+  std::filesystem::path path_;
   EventLogReader reader_;
 };
 
-handle_list_t list_at(const std::filesystem::path& path, std::int64_t position) {
-  EventLogReader reader(path, {position});
-  LoggedEvent event;
-  std::optional<handle_list_t> list;
-  if (reader.next(event)) list = decode_handle_list(event.bytes);
-  if (!list) throw EventLogError(path.string() + ": the log cannot be read: it changes meanwhile");
-  return *std::move(list);
-}
+/// The handle lists of tables; a place is a frame's number.
+class TableLists {
+ public:
+  explicit TableLists(const std::filesystem::path& path) : reader_(path) {}
+
+  std::optional<handle_list_t> next(std::int64_t& place) {
+    if (next_ == reader_.frames()) return std::nullopt;
+    place = next_;
+    return reader_.list(next_++);
+  }
+
+  [[nodiscard]] handle_list_t at(std::int64_t place) { return reader_.list(place); }
+
+ private:
+  HandleTablesReader reader_;
+  std::int64_t next_ = 0;
+};
+
+/// Of a run, whatever holds them.
+class Lists {
+ public:
+  explicit Lists(const std::filesystem::path& path) : lists_(open(path)) {}
+
+  /// Nothing at the end.
+  std::optional<handle_list_t> next(std::int64_t& place) {
+    return std::visit([&](auto& lists) { return lists.next(place); }, lists_);
+  }
+  handle_list_t at(std::int64_t place) {
+    return std::visit([&](auto& lists) { return lists.at(place); }, lists_);
+  }
+  [[nodiscard]] bool from_table() const { return std::holds_alternative<TableLists>(lists_); }
+
+ private:
+  static std::variant<LogLists, TableLists> open(const std::filesystem::path& path) {
+    if (is_parquet(path)) return TableLists(path);
+    return LogLists(path);
+  }
+
+  std::variant<LogLists, TableLists> lists_;
+};
 
 std::vector<Quantity> no_quantities() {
   const auto quantity = [](const char* name, double step) {
@@ -78,8 +123,9 @@ void add_list(std::vector<Quantity>& quantities, Distribution Quantity::*run, co
   if (work_ms > 0) (quantities[5].*run).add(work_ms);
 }
 
-bool same_handles(handle_list_t a, handle_list_t b) {
+bool same_handles(handle_list_t a, handle_list_t b, bool as_in_tables) {
   for (handle_list_t* list : {&a, &b}) {
+    if (as_in_tables) round_as_in_tables(*list);
     const auto handles = std::move(list->handles);
     const auto status = list->status;
     *list = handle_list_t{};
@@ -108,16 +154,16 @@ RunComparison compare_runs(const std::filesystem::path& before, const std::files
   result.quantities = no_quantities();
   std::map<FrameKey, std::int64_t> places;
   std::int64_t position = 0;
+  Lists old_lists(before), lists(after);
+  const bool as_in_tables = old_lists.from_table() || lists.from_table();
   {
     Keys keys;
-    Lists lists(before);
-    while (const auto list = lists.next(position)) {
+    while (const auto list = old_lists.next(position)) {
       places.emplace(keys.of(*list), position);
       add_list(result.quantities, &Quantity::before, *list);
     }
   }
   Keys keys;
-  Lists lists(after);
   for (std::int64_t number = 0; const auto list = lists.next(position); ++number) {
     add_list(result.quantities, &Quantity::after, *list);
     const FrameKey key = keys.of(*list);
@@ -126,13 +172,13 @@ RunComparison compare_runs(const std::filesystem::path& before, const std::files
       ++result.only_after;
       continue;
     }
-    const handle_list_t old = list_at(before, place->second);
+    const handle_list_t old = old_lists.at(place->second);
     places.erase(place);
     ++result.frames;
     FrameDifference d = difference(old, *list);
     d.key = key;
     d.frame = number;
-    if (same_handles(old, *list)) ++result.same;
+    if (same_handles(old, *list, as_in_tables)) ++result.same;
     ++result.statuses[{d.status_before, d.status_after}];
     on_frame(d);
     if (d.net_loss() < -options.tolerance) ++result.better;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "client/table/handle_tables.hpp"
 
+#include <array>
 #include <span>
 #include <string>
 #include <utility>
@@ -9,40 +10,11 @@
 
 #include "client/common/handle_text.hpp"
 #include "client/log/event_log_reader.hpp"
+#include "client/table/table_columns.hpp"
 #include "service/transport/handle_list_codec.hpp"
 
 namespace graspd {
 namespace {
-
-using enum ColumnType;
-
-std::vector<Column> handle_columns() {
-  std::vector<Column> columns{{"frame", kInt64},         {"utime", kInt64}, {"seq", kInt64},
-                              {"source_channel", kText}, {"rank", kInt32},  {"segment", kInt32}};
-  for (const char* name : {"px",         "py",        "pz",        "qw",        "qx",         "qy",
-                           "qz",         "roll",      "pitch",     "yaw",       "approach_x", "approach_y",
-                           "approach_z", "closing_x", "closing_y", "closing_z", "major_x",    "major_y",
-                           "major_z",    "width",     "gap_minus", "gap_plus",  "free_minus", "free_plus"})
-    columns.push_back({name, kFloat});
-  columns.push_back({"num_points", kInt32});
-  columns.push_back({"score", kFloat});
-  return columns;
-}
-
-std::vector<Column> frame_columns() {
-  return {{"frame", kInt64},           {"recv_utime", kInt64},
-          {"utime", kInt64},           {"seq", kInt64},
-          {"source_channel", kText},   {"handles_channel", kText},
-          {"frame_name", kText},       {"gripper", kText},
-          {"status", kText},           {"status_text", kText},
-          {"config_revision", kInt64}, {"voxel_size", kDouble},
-          {"degraded", kInt32},        {"points_in", kInt32},
-          {"points_used", kInt32},     {"num_segments", kInt32},
-          {"num_candidates", kInt32},  {"num_handles", kInt32},
-          {"best_score", kDouble},     {"latency", kDouble},
-          {"work_ms", kDouble},        {"candidate_failures", kText},
-          {"segment_failures", kText}};
-}
 
 void add_all(ParquetFile& table, std::span<const double> values) {
   for (const double value : values) table.add(value);
@@ -86,7 +58,11 @@ void HandleTables::add(std::int64_t recv_utime, std::string_view channel, const 
   for (const stage_time_t& stage : list.stages) work_ms += stage.milliseconds;
   frames_.add(frame).add(recv_utime).add(list.utime).add(list.seq);
   frames_.add(std::string_view(list.source_channel)).add(channel).add(std::string_view(list.frame_name));
-  frames_.add(std::string_view(list.gripper.name)).add(status_name(list.status));
+  const gripper_t& gripper = list.gripper;
+  frames_.add(std::string_view(gripper.name));
+  add_all(frames_, std::array{gripper.aperture, gripper.finger_width, gripper.finger_thickness,
+                              gripper.finger_length, gripper.grasp_depth, gripper.min_gap});
+  frames_.add(status_name(list.status));
   frames_.add(std::string_view(list.status_text)).add(list.config_revision).add(list.voxel_size);
   for (const std::int32_t count : {std::int32_t{list.degraded}, list.points_in, list.points_used,
                                    list.num_segments, list.num_candidates, list.num_handles})

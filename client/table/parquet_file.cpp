@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "client/table/parquet_file.hpp"
 
-#include <bit>
+#include <zstd.h>
+
 #include <cassert>
 #include <cstring>
 #include <stdexcept>
@@ -10,18 +11,15 @@
 
 #include "client/common/json_writer.hpp"
 #include "client/table/compact_writer.hpp"
+#include "client/table/parquet_format.hpp"
 
 namespace graspd {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "Parquet is little-endian");
+using namespace parquet;
 
-constexpr std::string_view kMagic = "PAR1";
 constexpr std::int64_t kGroupBytes = 8 << 20;
-constexpr std::int32_t kPlain = 0, kRle = 3;  // encodings
-constexpr std::int32_t kUtf8 = 0;             // converted type
-constexpr std::int32_t kRequired = 0;
-constexpr std::int32_t kUncompressed = 0;
+constexpr int kCompressionLevel = 3;
 
 template <class T>
 void append(std::string& bytes, T value) {
@@ -43,12 +41,21 @@ void append_number(std::string& cells, ColumnType type, auto value) {
   }
 }
 
-std::string page_header(std::size_t bytes, std::int64_t values) {
+std::string compressed(const std::string& bytes) {
+  std::string result(ZSTD_compressBound(bytes.size()), '\0');
+  const std::size_t size =
+      ZSTD_compress(result.data(), result.size(), bytes.data(), bytes.size(), kCompressionLevel);
+  if (ZSTD_isError(size) != 0U) throw std::runtime_error(std::string("zstd: ") + ZSTD_getErrorName(size));
+  result.resize(size);
+  return result;
+}
+
+std::string page_header(std::size_t bytes, std::size_t compressed, std::int64_t values) {
   CompactWriter w;
   w.begin_struct();
-  w.i32(1, 0);  // a data page
+  w.i32(1, kDataPage);
   w.i32(2, static_cast<std::int32_t>(bytes));
-  w.i32(3, static_cast<std::int32_t>(bytes));
+  w.i32(3, static_cast<std::int32_t>(compressed));
   w.begin_struct(5);
   w.i32(1, static_cast<std::int32_t>(values));
   w.i32(2, kPlain);
@@ -123,9 +130,11 @@ void ParquetFile::write_group() {
   group.rows = rows_in_group_;
   for (std::string& cells : cells_) {
     const std::int64_t start = offset_;
-    write(page_header(cells.size(), rows_in_group_));
-    write(cells);
-    group.chunks.push_back({start, offset_ - start});
+    const std::string page = compressed(cells);
+    const std::string header = page_header(cells.size(), page.size(), rows_in_group_);
+    write(header);
+    write(page);
+    group.chunks.push_back({start, offset_ - start, std::ssize(header) + std::ssize(cells)});
     cells.clear();
   }
   groups_.push_back(std::move(group));
@@ -159,16 +168,16 @@ std::string ParquetFile::footer() const {
     std::int64_t group_bytes = 0;
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       const Chunk& chunk = group.chunks[i];
-      group_bytes += chunk.size;
+      group_bytes += chunk.uncompressed;
       w.begin_struct();
       w.i64(2, chunk.offset);
       w.begin_struct(3);
       w.i32(1, static_cast<std::int32_t>(columns_[i].type));
       w.i32s(2, {kPlain});
       w.texts(3, {columns_[i].name});
-      w.i32(4, kUncompressed);
+      w.i32(4, kZstd);
       w.i64(5, group.rows);
-      w.i64(6, chunk.size);
+      w.i64(6, chunk.uncompressed);
       w.i64(7, chunk.size);
       w.i64(9, chunk.offset);
       w.end_struct();

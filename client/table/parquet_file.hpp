@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The graspd authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes tables as Parquet files: plain, uncompressed, no column may be empty. Own code, because Debian 12
-// has no library that does; pyarrow, DuckDB and pandas read them (tests/table/run).
+// Writes tables as Parquet files: plain values, compressed by zstd, no missing ones. Own code, because Debian
+// 12 has no library that does; pyarrow, DuckDB and pandas read them (tests/table/run).
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -44,6 +44,7 @@ class ParquetFile {
   struct Chunk {
     std::int64_t offset = 0;  ///< of its page header [bytes]
     std::int64_t size = 0;    ///< with the header [bytes]
+    std::int64_t uncompressed = 0;
   };
   struct Group {
     std::vector<Chunk> chunks;

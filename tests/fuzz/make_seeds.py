@@ -26,6 +26,53 @@ def write(target, name, data):
     (folder / name).write_bytes(data if isinstance(data, bytes) else data.encode())
 
 
+def compact(*fields):
+    """A struct in Thrift's compact protocol: (id, type, payload) in the order of the ids."""
+    data, last = b"", 0
+    for number, kind, payload in fields:
+        data += bytes([(number - last) << 4 | kind]) + payload
+        last = number
+    return data + b"\0"
+
+
+def varint(value):
+    data = b""
+    while value >= 0x80:
+        data, value = data + bytes([value & 0x7f | 0x80]), value >> 7
+    return data + bytes([value])
+
+
+def zigzag(value):
+    return varint(value << 1)
+
+
+def text(value):
+    return varint(len(value)) + value
+
+
+def parquet(pages, codec):
+    """A table of two rows: number as int64 (2), text as bytes (6). codec: 0 plain, 6 zstd, as one block that is not compressed."""
+    i32, i64, binary, array, struct_ = 5, 6, 8, 9, 12
+    body, chunks = b"PAR1", b""
+    for kind, name, page in pages:
+        packed = page
+        if codec == 6:
+            packed = (b"\x28\xb5\x2f\xfd\x20" + bytes([len(page)]) + struct.pack("<I", len(page) << 3 | 1)[:3] + page)
+        counts = compact((1, i32, zigzag(2)), (2, i32, zigzag(0)), (3, i32, zigzag(3)), (4, i32, zigzag(3)))
+        chunk = compact((1, i32, zigzag(0)), (2, i32, zigzag(len(page))), (3, i32, zigzag(len(packed))),
+                        (5, struct_, counts)) + packed
+        meta = compact((1, i32, zigzag(kind)), (4, i32, zigzag(codec)), (7, i64, zigzag(len(chunk))),
+                       (9, i64, zigzag(len(body))))
+        chunks += compact((3, struct_, meta))
+        body += chunk
+    schema = compact((4, binary, text(b"schema")), (5, i32, zigzag(len(pages))))
+    schema += b"".join(compact((1, i32, zigzag(k)), (3, i32, zigzag(0)), (4, binary, text(n))) for k, n, _ in pages)
+    group = compact((1, array, bytes([len(pages) << 4 | struct_]) + chunks), (3, i64, zigzag(2)))
+    footer = compact((1, i32, zigzag(1)), (2, array, bytes([len(pages) + 1 << 4 | struct_]) + schema), (3, i64, zigzag(2)),
+                     (4, array, bytes([1 << 4 | struct_]) + group), (6, binary, text(b"graspd")))
+    return body + footer + struct.pack("<I", len(footer)) + b"PAR1"
+
+
 def point_cloud(points, width=None):
     fields = [TYPES["point_field_t"].encode(name=n, offset=4 * i, datatype=7, count=1)[8:] for i, n in enumerate("xyz")]
     data = b"".join(struct.pack("<fff", *p) for p in points)
@@ -203,6 +250,9 @@ def log_event(number, channel, data, channel_bytes=None, data_bytes=None):
 
 def log_seeds():
     good = log_event(0, b"GRASPD_CLOUD", b"abc") + log_event(1, b"S", b"")
+    table = [(2, b"number", struct.pack("<qq", 7, -1)), (6, b"text", struct.pack("<I", 2) + b"ab" + struct.pack("<I", 0))]
+    write("parquet", "plain", parquet(table, 0))
+    write("parquet", "zstd", parquet(table, 6))
     write("event_log", "two_events", good)
     write("event_log", "cut_short", good[:-1] + b"")
     write("event_log", "damaged_between", log_event(0, b"A", b"x") + b"\xed\xa1\xda\x01noise" + log_event(1, b"B", b"y"))

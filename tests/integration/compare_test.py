@@ -73,6 +73,36 @@ class Compare(GraspdTest):
         self.before, before = after, self.before
         self.assertIn(f" {len(worse)} better", (self.compare(before), self.last)[1].err)
 
+    def table(self, log):
+        path = log.with_suffix(".parquet")
+        self.run_program("graspd-replay", "table", log, "-o", path)
+        return path
+
+    def test_tables_are_as_good_as_logs(self):
+        config = self.write_config("detect: {smoothness: {theta_low_deg: 0.5, theta_high_deg: 1}}\n")
+        logs = self.before, self.replay("after.log", "--config", config, "--times")
+        want = self.compare(logs[1], "--clouds", self.clouds)
+        pictures = {p.name: p.read_bytes() for p in self.report.glob("*.png")}
+        tables = [self.table(log) for log in logs]
+        for log in logs:
+            log.rename(log.with_suffix(".kept"))  # nothing but the tables is needed
+        logs = [log.with_suffix(".kept") for log in logs]
+        for runs in (tables, (tables[0], logs[1]), (logs[0], tables[1])):
+            self.before = runs[0]
+            got = self.compare(runs[1], "--clouds", self.clouds)
+            self.assertEqual(len(got), len(want))
+            for ours, theirs in zip(got, want):
+                self.assertEqual({k: v for k, v in ours.items() if k not in ("best_before", "best_after", "net_loss")},
+                                 {k: v for k, v in theirs.items() if k not in ("best_before", "best_after", "net_loss")})
+                for column in ("best_before", "best_after", "net_loss"):
+                    self.assertAlmostEqual(float(ours[column]), float(theirs[column]), delta=2e-6)
+            self.assertEqual({p.name for p in self.report.glob("*.png")}, set(pictures))
+        self.before = tables[0]
+        self.compare(logs[0])
+        self.assertIn("8 the same to the bit", self.last.err)
+        tables[0].with_suffix(".frames.parquet").write_bytes(b"PAR1PAR1PAR1")
+        self.run_program("graspd-compare", tables[0], logs[1], code=1)
+
     def test_frames_of_one_run_alone_and_other_logs(self):
         after = self.replay("part.log", "--frames", "2:7")
         self.assertEqual(len(self.compare(after)), 5)
