@@ -6,18 +6,25 @@
 #include <netdb.h>
 #include <poll.h>
 #include <sys/socket.h>
+#include <sys/time.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <climits>
+#include <optional>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
 
 #include "service/transport/multicast_check.hpp"
+#include "service/transport/time_limit.hpp"
 
 namespace graspd {
 namespace {
+
+// For each step of a tcpq server: to connect, to shake hands, to take or send some bytes of a message. Less
+// than the two seconds in which the daemon has to be gone.
+constexpr std::chrono::seconds kServerPatience{1};
 
 [[noreturn]] void fail(const std::string& url, const std::string& reason) {
   throw std::runtime_error("LCM URL '" + url + "': " + reason);
@@ -52,6 +59,12 @@ std::string checked_url(const std::string& url, const LcmUrl& parsed) {
   if (parsed.provider == "udpm") require_multicast(url);
   if (parsed.provider == "tcpq") return with_resolved_host(url, parsed);
   return url;
+}
+
+std::string no_answer(const LcmUrl& url) {
+  return "'" + url.network + "' does not answer as a tcpq server does within " +
+         std::to_string(kServerPatience.count()) +
+         " s; remedy: check that it is lcm-tcpq-server, and the way to it";
 }
 
 std::string creation_failure(const LcmUrl& url) {
@@ -94,16 +107,41 @@ struct LcmBus::Subscription {
 LcmBus::LcmBus(const std::string& url)
     : url_(url), provider_(parse_lcm_url(url).provider), lcm_(nullptr, lcm_destroy) {
   const LcmUrl parsed = parse_lcm_url(url);
-  lcm_.reset(lcm_create(checked_url(url, parsed).c_str()));
+  const bool in_time = create(checked_url(url, parsed));
   const bool fixed = provider_ != "udpm" && provider_ != "tcpq";
   if (lcm_ == nullptr && fixed) fail(url, creation_failure(parsed));
   if (lcm_ == nullptr) fail_for_now(url, creation_failure(parsed));
   // LCM returns tcpq connections that were refused. udpm starts its receiver here, which who only publishes
   // is spared.
-  if (provider_ == "tcpq" && lcm_get_fileno(lcm_.get()) < 0) fail_for_now(url, creation_failure(parsed));
+  if (provider_ != "tcpq") return;
+  const int fd = lcm_get_fileno(lcm_.get());
+  if (fd < 0) fail_for_now(url, in_time ? creation_failure(parsed) : no_answer(parsed));
+  const timeval patience{kServerPatience.count(), 0};
+  for (const int direction : {SO_RCVTIMEO, SO_SNDTIMEO})
+    setsockopt(fd, SOL_SOCKET, direction, &patience, sizeof(patience));
 }
 
-LcmBus::~LcmBus() = default;
+LcmBus::~LcmBus() {
+  if (provider_ != "tcpq") return;
+  // LCM unsubscribes as it ends, and connects anew to do so: a bus that is closed has no time for that.
+  const bool closed = lcm_get_fileno(lcm_.get()) < 0;
+  const TimeLimit limit(closed ? std::chrono::seconds(0) : kServerPatience);
+  lcm_.reset();
+}
+
+bool LcmBus::create(const std::string& url) {
+  // LCM connects to a tcpq server, and waits for its greeting, for as long as that likes.
+  std::optional<TimeLimit> limit;
+  if (provider_ == "tcpq") limit.emplace(kServerPatience);
+  lcm_.reset(lcm_create(url.c_str()));
+  return !limit || !limit->passed();
+}
+
+std::unique_lock<std::recursive_mutex> LcmBus::lock_connection() {
+  std::unique_lock lock(use_mutex_, std::defer_lock);
+  if (provider_ == "tcpq") lock.lock();
+  return lock;
+}
 
 void LcmBus::require_receiving() {
   if (lcm_get_fileno(lcm_.get()) >= 0) return;
@@ -113,7 +151,8 @@ void LcmBus::require_receiving() {
 }
 
 void LcmBus::subscribe(const std::string& channel_regex, Handler handler, int queue_capacity) {
-  require_receiving();  // after a failure lcm_subscribe would stall for ten seconds
+  const auto lock = lock_connection();  // what is sent to subscribe must not get into a message
+  require_receiving();                  // after a failure lcm_subscribe would stall for ten seconds
   auto subscription = std::make_unique<Subscription>(Subscription{this, channel_regex, std::move(handler)});
   lcm_subscription_t* created = lcm_subscribe(lcm_.get(), whole_name(channel_regex).c_str(),
                                               &Subscription::dispatch, subscription.get());
@@ -129,7 +168,10 @@ void LcmBus::subscribe(const std::string& channel_regex, Handler handler, int qu
 void LcmBus::unsubscribe(const std::string& channel_regex) {
   std::erase_if(subscriptions_, [&](const std::unique_ptr<Subscription>& subscription) {
     if (subscription->channel_regex != channel_regex) return false;
-    lcm_unsubscribe(lcm_.get(), subscription->made_by_lcm);
+    const auto lock = lock_connection();
+    // LCM would connect anew; a closed bus calls no handler any more.
+    const bool closed = provider_ == "tcpq" && lcm_get_fileno(lcm_.get()) < 0;
+    if (!closed) lcm_unsubscribe(lcm_.get(), subscription->made_by_lcm);
     return true;
   });
 }
@@ -154,8 +196,7 @@ LcmBus::Wait LcmBus::wait(std::chrono::milliseconds timeout) {
 
 int LcmBus::handle() {
   // Of a tcpq connection that breaks, reader and writers would each close the socket.
-  std::unique_lock lock(use_mutex_, std::defer_lock);
-  if (provider_ == "tcpq") lock.lock();
+  const auto lock = lock_connection();
   errno = 0;
   return lcm_handle(lcm_.get());
 }

@@ -18,12 +18,14 @@ struct _lcm_t;  // NOLINT(bugprone-reserved-identifier): the name that liblcm gi
 
 namespace graspd {
 
-/// A bus that closes when its connection is lost: there is no way back but a new one.
+/// A bus that closes when its connection is lost, or a tcpq server stands still in a message for a second:
+/// there is no way back but a new one.
 class LcmBus final : public Bus {
  public:
   /// Throws std::runtime_error whose text names the URL, the reason and the remedy; BusUnavailable where
   /// another attempt may succeed. udpm: takes some milliseconds to see whether multicast gets through, two
-  /// seconds where it does not (LCM alone would take ten).
+  /// seconds where it does not (LCM alone would take ten). tcpq: a second at most, besides the look-up of a
+  /// name.
   explicit LcmBus(const std::string& url);
   ~LcmBus() override;
 
@@ -39,6 +41,10 @@ class LcmBus final : public Bus {
  private:
   struct Subscription;
   void require_receiving();
+  /// Whether it was done in time.
+  [[nodiscard]] bool create(const std::string& url);
+  /// Of a tcpq connection: reader and writers close its socket.
+  [[nodiscard]] std::unique_lock<std::recursive_mutex> lock_connection();
   int handle();
 
   const std::string url_;

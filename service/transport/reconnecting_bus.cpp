@@ -53,7 +53,8 @@ Bus::Wait ReconnectingBus::wait(std::chrono::milliseconds timeout) {
     sent_unheard_ = 0;
   }
   if (result == Wait::kClosed && provider_ == "tcpq") {
-    lose("LCM URL '" + url_ + "': the connection was closed; remedy: start lcm-tcpq-server there again");
+    lose("LCM URL '" + url_ +
+         "': the connection was closed or stood still; remedy: look after lcm-tcpq-server there");
     return Wait::kTimeout;
   }
   if (provider_ == "udpm") look_after_network();

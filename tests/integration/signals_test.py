@@ -1,14 +1,12 @@
 # SPDX-FileCopyrightText: 2026 The graspd authors
 # SPDX-License-Identifier: BSD-3-Clause
 """SIGTERM and SIGINT in the middle of the work: every program ends with 0, the daemon within 2 s and with a last status."""
-import os
 import signal
 
-from harness import CLOUDS, HANDLES, STATUS, TYPES, run_tests, wait_until
+from harness import CLOUDS, HANDLES, STATUS, STOP_WITHIN_S, TYPES, run_tests, wait_until
 from traffic import TrafficTest
 
 STOPPING = TYPES["status_t"].constants["STOPPING"]
-STOP_WITHIN_S = 60 if os.environ.get("GRASPD_SANITIZED") else 2
 CONFIG = """
 workers: 2
 on_stop: {on_stop}

@@ -1,9 +1,10 @@
 # SPDX-FileCopyrightText: 2026 The graspd authors
 # SPDX-License-Identifier: BSD-3-Clause
 """What the daemon needs goes away and comes back: route, interface, tcpq server. It waits, says so, and goes on."""
+import socket
 import subprocess
 
-from harness import CLOUDS, HANDLES, STATUS, TYPES, run_tests, wait_until
+from harness import CLOUDS, HANDLES, PATIENCE_S, STATUS, STOP_WITHIN_S, TYPES, run_tests, wait_until
 from tcpq_server import TcpqServer
 from traffic import TrafficTest
 
@@ -111,6 +112,37 @@ class Surroundings(TrafficTest):
         server.start()
         wait_until(lambda: server.on(STATUS, TYPES["status_t"]), "the first status")
         self.assertEqual(daemon.stop()[0], 0, daemon.err)
+        server.stop()
+
+    def test_a_tcpq_server_that_takes_connections_and_says_nothing(self):
+        frame = self.record_frames(1, width=160)[0]
+        server = TcpqServer()
+        server.silent = True
+        server.start()
+        path = str(self.folder / "notify")
+        with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as systemd:
+            systemd.bind(path)
+            systemd.settimeout(PATIENCE_S)
+            daemon = self.start("graspd", "--config", self.write_config(CONFIG), "--lcm-url", server.url,
+                                environment={"NOTIFY_SOCKET": path, "WATCHDOG_USEC": "6000000"})
+            told = []
+            while sum(message == "WATCHDOG=1" for message in told) < 3:  # over several attempts
+                told.append(systemd.recv(4096).decode())
+            self.assertNotIn("READY=1", told)
+            self.assertTrue([m for m in told if m.startswith("STATUS=waiting for LCM") and "does not answer" in m], told)
+            self.assertEqual(daemon.err.count("event=lcm_away"), 1)
+            server.silent = False
+            while "READY=1" not in told:
+                told.append(systemd.recv(4096).decode())
+        wait_until(lambda: server.on(STATUS, TYPES["status_t"]), "the first status")
+        server.publish(CLOUDS, self.with_seq(frame, 7))
+        wait_until(lambda: 7 in [a.seq for a in server.on(HANDLES, TYPES["handle_list_t"])], "an answer")
+        server.silent = True
+        server.hang_up()
+        wait_until(lambda: daemon.err.count("event=lcm_away") == 2, "the daemon to notice")
+        code, seconds = daemon.stop()
+        self.assertEqual(code, 0, daemon.err)
+        self.assertLess(seconds, STOP_WITHIN_S)
         server.stop()
 
     def test_gives_up_when_told_to(self):

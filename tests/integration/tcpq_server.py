@@ -12,9 +12,10 @@ PUBLISH, SUBSCRIBE, UNSUBSCRIBE = 1, 2, 3
 
 
 class TcpqServer:
-    """Serves until stop(); start() again on the same port."""
+    """Serves until stop(); start() again on the same port. While silent it takes connections and says nothing."""
 
     def __init__(self):
+        self.silent = False
         with socket.socket() as probe:
             probe.bind(("127.0.0.1", 0))
             self.port = probe.getsockname()[1]
@@ -35,10 +36,18 @@ class TcpqServer:
         threading.Thread(target=self._accept, args=(self._listener,), daemon=True).start()
 
     def stop(self):
-        """Hangs up on everybody."""
+        """Hangs up on everybody, and takes nobody any more."""
+        self._close([self._listener])
+        self.hang_up()
+
+    def hang_up(self):
         with self._lock:
-            sockets = [self._listener, *self._clients]
+            clients = list(self._clients)
             self._clients.clear()
+        self._close(clients)
+
+    @staticmethod
+    def _close(sockets):
         for one in sockets:
             try:
                 one.shutdown(socket.SHUT_RDWR)
@@ -73,6 +82,8 @@ class TcpqServer:
 
     def _serve(self, client):
         try:
+            if self.silent:
+                self._take(client, 1 << 30)
             client.sendall(HELLO)
             if self._take(client, 8) != CLIENTS_HELLO:
                 return
