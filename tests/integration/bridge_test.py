@@ -5,6 +5,7 @@ import json
 from array import array
 
 from harness import CLOUDS, HANDLES, GraspdTest, run_tests, wait_until
+from playback import PROBE, empty_list
 from web_socket import Closed, WebSocket
 
 CONFIG = """
@@ -42,17 +43,20 @@ class Bridge(GraspdTest):
         bus = self.open_bus()
         self.start_daemon(bus, self.write_config(CONFIG))
         listener = self.start_listening("graspd-listen", "--format", "json")
+        self.probe(bus, HANDLES, empty_list(PROBE), listener.lines, "the listener's first line")
         bridge, url = self.start_bridge()
         client, may_write = self.connect(url.split("?")[0])
         self.assertFalse(may_write)
-        self.receive(client, "status")  # it listens
         self.run_program("graspd-simulate", "--width", 160, "--rate", 5, "--frames", 6)
         texts = []
         while len(texts) < 6:
             text = client.receive()
             if json.loads(text)["type"] == "handle_list":
                 texts.append(text)
-        lines = wait_until(lambda: listener.lines() if len(listener.lines()) >= 6 else None, "the listener's lines")
+
+        def lines_of_frames():
+            return [line for line in listener.lines() if PROBE not in line]
+        lines = wait_until(lambda: lines_of_frames() if len(lines_of_frames()) >= 6 else None, "the listener's lines")
         self.assertEqual(texts, [f'{{"type":"handle_list","channel":"{HANDLES}","message":{line}}}' for line in lines])
         self.assertEqual(bridge.stop()[0], 0, bridge.err)
 
@@ -101,7 +105,7 @@ class Bridge(GraspdTest):
             client.send(message)
             self.receive(client, "refused")
         bus.publish(HANDLES, b"no list")
-        self.receive(client, "status")
+        wait_until(lambda: "neither a valid handle_list_t" in bridge.err, "the bridge to say so")
         self.assertEqual(bridge.stop()[0], 0, bridge.err)
         self.assertIn("1 invalid messages", bridge.err)
         with self.assertRaises((Closed, OSError)):

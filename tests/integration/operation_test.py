@@ -6,7 +6,7 @@ import signal
 import socket
 import types
 
-from harness import CLOUDS, TYPES, run_tests
+from harness import CLOUDS, PATIENCE_S, TYPES, run_tests
 from traffic import TrafficTest
 
 CONTROL = "GRASPD_CONTROL"
@@ -112,7 +112,7 @@ sources:
         path = str(self.folder / "notify")
         with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as systemd:
             systemd.bind(path)
-            systemd.settimeout(60)
+            systemd.settimeout(PATIENCE_S)
             bus = self.open_bus()
             config = self.write_config(CONFIG.format(leaf=0.003))
             told = []
@@ -145,12 +145,12 @@ sources:
         self.answer(bus)
         self.publish_paced(bus, CLOUDS, b"junk")
         self.await_answers(bus, 2)
-        as_json = json.loads(self.run_program("graspd-status", "--once", "--format", "json", "--timeout", 60).out)
+        as_json = json.loads(self.run_program("graspd-status", "--once", "--format", "json", "--timeout", PATIENCE_S).out)
         self.assertEqual(as_json["pid"], daemon.process.pid)
         self.assertEqual(as_json["sources"][0]["refused"], 1)
         self.assertGreater(as_json["num_descriptors"], 0)
         self.assertEqual([e["event"] for e in as_json["errors"]], ["frame_refused"])
-        text = self.run_program("graspd-status", "--once", "--timeout", 60).out
+        text = self.run_program("graspd-status", "--once", "--timeout", PATIENCE_S).out
         self.assertIn("camera", text)
         self.assertIn("frame_refused", text)
 
@@ -161,7 +161,7 @@ sources:
         self.await_status(bus, lambda s: s.sources[0].processed == 1, "a status that counts the frame")
         path = self.folder / "graspd.prom"
         path.write_text("old\n", encoding="ascii")
-        self.run_program("graspd-status", "--once", "--prometheus", path, "--timeout", 60)
+        self.run_program("graspd-status", "--once", "--prometheus", path, "--timeout", PATIENCE_S)
         self.assertEqual(sorted(p.name for p in self.folder.glob("*.prom*")), ["graspd.prom"])
         metrics = self.parse_metrics(path.read_text(encoding="utf-8"))
         self.assertEqual(metrics['graspd_frames_received_total{source="camera",channel="GRASPD_CLOUD"}'], 1)

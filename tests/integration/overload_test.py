@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """More frames than can be worked on: each is answered, the newest is worked on, dropped ones say so."""
 from harness import CLOUDS, HANDLES, TYPES, run_tests
-from traffic import TrafficTest
+from traffic import MOST_AT_ONCE, TrafficTest
 
 CONFIG = """
 workers: 1
@@ -12,7 +12,7 @@ sources:
     policy: {policy}
     queue_length: {queue}
 """
-COUNT = 60
+COUNT = MOST_AT_ONCE
 
 
 class Overload(TrafficTest):

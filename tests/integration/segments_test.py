@@ -37,13 +37,15 @@ class Segments(TrafficTest):
         self.assertLessEqual(len(found), 1)
         return answer, found[0] if found else None
 
-    def until(self, wanted, frame, first_seq):
-        """Sends the frame until its answer comes with or without segments, as wanted."""
+    def until(self, wanted, frame, first_seq, asked=None):
+        """Sends the frame until its answer comes with or without segments, as wanted; before each, what is asked."""
         seq = first_seq
 
         def arrived():
             nonlocal seq
             seq += 1
+            if asked:
+                self.bus.publish(REQUESTS, asked())
             pair = self.answer(self.with_seq(frame, seq), seq)
             return pair if (pair[1] is not None) == wanted else None
         return wait_until(arrived, "segments to come" if wanted else "segments to end")
@@ -75,8 +77,7 @@ class Segments(TrafficTest):
         self.assertIsNone(none)
         self.bus.publish(REQUESTS, request(60, "OTHER"))
         self.assertIsNone(self.answer(self.with_seq(frame, 2), 2)[1])
-        self.bus.publish(REQUESTS, request(2, CLOUDS))
-        answer, message = self.until(True, frame, 100)
+        answer, message = self.until(True, frame, 100, lambda: request(2, CLOUDS))
         self.assert_belongs_to(message, answer)
         self.assertEqual([vars(h) for h in answer.handles], [vars(h) for h in plain.handles])
         self.until(False, frame, 100_000)

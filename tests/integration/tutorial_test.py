@@ -53,7 +53,7 @@ class Tutorial(GraspdTest):
     def setUp(self):
         super().setUp()
         self.bus = self.open_bus()
-        self.start_daemon(self.bus, CELL)
+        self.start_daemon(self.bus, self.write_config(CELL.read_text(encoding="utf-8")))
         self.truth = self.folder / "truth.jsonl"
 
     def plan(self, *command):

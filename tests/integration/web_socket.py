@@ -8,6 +8,8 @@ import socket
 import struct
 from urllib.parse import urlsplit
 
+from harness import PATIENCE_S
+
 GUID = "258EAFA5-E914-47DA-95CA-C5AB0DC85B11"
 TEXT, BINARY, CLOSE, PING, PONG = 1, 2, 8, 9, 10
 
@@ -17,7 +19,7 @@ class Closed(Exception):
 
 
 class WebSocket:
-    def __init__(self, url, patience_s=60):
+    def __init__(self, url, patience_s=PATIENCE_S):
         parts = urlsplit(url)
         self._socket = socket.create_connection((parts.hostname, parts.port), patience_s)
         key = base64.b64encode(os.urandom(16)).decode()

@@ -8,8 +8,8 @@ import struct
 import subprocess
 
 from message_faults import MessageFaults, fault
-from trial import (BIN, CLOUD, CLOUDS, HANDLES, IMAGE, LIST, MEGABYTE, PROCESSED, STATUS, TYPES, Process, Trial, options_of,
-                   run_trial, wait_until)
+from trial import (BIN, CLOUD, CLOUDS, HANDLES, IMAGE, LIST, MEGABYTE, MOST_AT_ONCE, PROCESSED, STATUS, TYPES, Process, Trial,
+                   options_of, run_trial, wait_until)
 
 OPTIONS = options_of(__doc__, only="")
 CONFIG = """
@@ -48,11 +48,16 @@ class Faults(MessageFaults, Trial):
     def answers_to(self, messages, channel=CLOUDS, out=HANDLES):
         """The answers on a channel to these messages."""
         before = sum(c == out for c, _ in self.answers)
-        for message in messages:
+        for number, message in enumerate(messages, 1):
             self.send_paced(self.listener, channel, message)
-        while (count := sum(c == out for c, _ in self.answers)) < before + len(messages):  # however long it takes
-            self.until(lambda n=count: sum(c == out for c, _ in self.answers) > n, "the next answer")
+            if number % MOST_AT_ONCE == 0 or number == len(messages):
+                self.await_count(out, before + number)
         return [a for c, a in self.answers if c == out][before:]
+
+    def await_count(self, out, wanted):
+        """So many answers on a channel, however long it takes."""
+        while (count := sum(c == out for c, _ in self.answers)) < wanted:
+            self.until(lambda n=count: sum(c == out for c, _ in self.answers) > n, "the next answer")
 
     def names(self, *messages):
         """The answers' statuses by name, without repetition."""
@@ -119,6 +124,8 @@ class Faults(MessageFaults, Trial):
         before = self.status.ignored
         for i in range(200):
             self.send_paced(self.listener, f"MORE_{i + 10}", b"x")
+            if i % MOST_AT_ONCE == 0:
+                self.answers_to([self.good()])  # what came before it has been taken, too
         self.until(lambda: self.status.ignored > before + 150, "the count in the status")
         self.assertLessEqual(len(self.status.sources), 8)
         return "counted, no more than the limit served"
@@ -253,12 +260,12 @@ class Faults(MessageFaults, Trial):
 
     @fault("asked to stop in the middle of its work", "exit 0, every frame answered")
     def fault_stop(self):
-        """30 frames, SIGTERM"""
+        """25 frames, SIGTERM"""
         before = len(self.answers)
-        for _ in range(30):
+        for _ in range(MOST_AT_ONCE):
             self.send_paced(self.listener, CLOUDS, self.good())
         self.assertEqual(self.daemon.stop()[0], 0)
-        self.until(lambda: len(self.answers) >= before + 30, "the answers")
+        self.until(lambda: len(self.answers) >= before + MOST_AT_ONCE, "the answers")
         self.start_one()
         return "exit 0, every frame answered"
 

@@ -5,7 +5,7 @@ import shutil
 import subprocess
 import sys
 
-from trial import (CLOUDS, HANDLES, LIST, STATUS, TYPES, Camera, Trial, options_of, run_trial, table, wait_until,
+from trial import (CLOUDS, HANDLES, LIST, MOST_AT_ONCE, STATUS, TYPES, Camera, Trial, options_of, run_trial, table, wait_until,
                    waiting_bytes)
 from two_hosts import HERE, OUR_ADDRESS, OtherHost, run
 
@@ -55,7 +55,8 @@ class Loss(Trial):
             self.answers.append(TYPES["handle_list_t"].decode(data))
 
     def send(self, camera):
-        wait_until(lambda: (self.listener.receive(0), waiting_bytes() == 0)[1], "the receivers")
+        wait_until(lambda: (self.listener.receive(0), waiting_bytes() == 0 and
+                            len(self.arrived) - len(self.answers) < MOST_AT_ONCE // 2)[1], "the receivers")
         data = camera.next()
         self.sender.stdin.write(b"%d\n" % len(data) + data)
         self.sender.stdin.flush()

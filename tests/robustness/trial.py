@@ -12,7 +12,7 @@ import time
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "integration"))
 from harness import BIN, CLOUDS, HANDLES, STATUS, TYPES, listening_sockets, run_tests, wait_until  # noqa: E402, F401
 from lcm_udp import Bus  # noqa: E402
-from traffic import TrafficTest, waiting_bytes  # noqa: E402
+from traffic import MOST_AT_ONCE, TrafficTest, waiting_bytes  # noqa: E402, F401
 
 LIST = TYPES["handle_list_t"].constants
 CLOUD, IMAGE = TYPES["point_cloud_t"], TYPES["depth_image_t"]

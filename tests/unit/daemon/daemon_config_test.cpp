@@ -3,7 +3,6 @@
 // A running daemon takes another configuration: by reload, and by messages on the control channel.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <string>
 
 #include "service/transport/control_codec.hpp"
@@ -21,7 +20,7 @@ class DaemonConfigTest : public RunningDaemon {
     file_ = file;
     const auto load = [this](const std::string& overrides) {
       ConfigLayers layers;
-      layers.threads = std::min(2, kMostThreads);
+      layers.threads = 2;
       layers.overrides = merge_overrides(file_, overrides);
       return load_layers(layers);
     };

@@ -70,7 +70,7 @@ RunningDaemon::RunningDaemon() {
 }
 
 void RunningDaemon::start(ServiceConfig config, ConfigControl::Load load) {
-  config.threads = std::min(2, kMostThreads);
+  config.threads = 2;
   daemon_ = std::make_unique<Daemon>(std::move(config), bus_, clock_, log_, std::move(load));
 }
 

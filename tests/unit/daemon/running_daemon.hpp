@@ -21,15 +21,6 @@
 
 namespace graspd {
 
-// ThreadSanitizer cannot see what Debian's libtbb orders (service/runtime/tsan_suppressions.cpp), and to
-// suppress its reports takes minutes: there a frame has one thread. Workers, gates and the bus run side by
-// side as ever.
-#ifdef __SANITIZE_THREAD__
-inline constexpr int kMostThreads = 1;
-#else
-inline constexpr int kMostThreads = 4;
-#endif
-
 /// The machine's clocks and what a test adds. A frame can be held in the middle of its work: the workers ask
 /// for the time, and wait there.
 class TestClock final : public Clock {

@@ -25,7 +25,9 @@ using namespace std::chrono_literals;
 using SteadyClock = std::chrono::steady_clock;
 
 constexpr const char* kUdpm = "udpm://239.255.76.67:7667?ttl=0";
-constexpr RetryTimes kQuick{1ms, 20ms, 100ms};
+constexpr RetryTimes kQuick{1ms, 20ms,
+                            60s};  // on a busy machine, too, silence is a loss only where it is meant
+constexpr RetryTimes kQuickToNotice{1ms, 20ms, 100ms};
 
 /// A bus, what it told, and what it received on A.
 struct Watched {
@@ -138,7 +140,7 @@ TEST(ReconnectingBus, SurvivesTheLossOfTheRoute) {
 TEST(ReconnectingBus, NoticesThatItHearsNothingOfItsOwn) {
   // The route moves to another interface: sending works on, the old membership hears none of it.
   const auto result = in_private_network(kMulticast, [] {
-    Watched watched(kUdpm);
+    Watched watched(kUdpm, kQuickToNotice);
     if (!watched.run_until([&] { return watched.received > 0; }))
       return std::string("nothing received at first");
     if (!run(

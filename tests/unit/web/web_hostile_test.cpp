@@ -21,7 +21,8 @@ const std::string kUpgrade =
 
 class WebHostileTest : public testing::Test {
  protected:
-  void SetUp() override { start(std::chrono::seconds(1)); }
+  // Long enough for a machine that is busy with other things.
+  void SetUp() override { start(std::chrono::minutes(10)); }
   void start(std::chrono::seconds request_timeout) {
     folder_.write("page/index.html", "page");
     folder_.write("secret.txt", "the secret");
@@ -42,12 +43,12 @@ class WebHostileTest : public testing::Test {
                                 const std::string& host = "localhost") const {
     return http_get(server_->port(), target, headers, host);
   }
-  /// An upgrade with these headers.
+  /// An upgrade with these headers; refused, the connection ends.
   [[nodiscard]] std::string ask_socket(const std::string& headers,
                                        const std::string& target = "/socket") const {
-    return raw_exchange(server_->port(), "GET " + target +
-                                             " HTTP/1.1\r\nHost: localhost\r\nConnection: Upgrade\r\n" +
-                                             kUpgrade + headers + "\r\n");
+    return raw_exchange(server_->port(),
+                        "GET " + target + " HTTP/1.1\r\nHost: localhost\r\nConnection: Upgrade, close\r\n" +
+                            kUpgrade + headers + "\r\n");
   }
   [[nodiscard]] std::int64_t count(WebEvent event) const { return server_->counters().get(event); }
 
@@ -90,19 +91,19 @@ TEST_F(WebHostileTest, RequestsThatAreNone) {
 }
 
 TEST_F(WebHostileTest, ARequestThatNeverEndsIsGivenUp) {
+  start(std::chrono::seconds(1));
   EXPECT_EQ(raw_exchange(server_->port(), "GET / HTTP/1.1\r\nHost: loc"), "");
 }
 
 TEST_F(WebHostileTest, MoreConnectionsThanAllowed) {
-  start(std::chrono::minutes(10));  // so that none makes room for another
   boost::asio::io_context context;
   std::vector<boost::asio::ip::tcp::socket> sockets;
   for (int i = 0; i < 30; ++i) {
     sockets.emplace_back(context);
     sockets.back().connect({boost::asio::ip::address_v4::loopback(), server_->port()});
   }
-  EXPECT_TRUE(becomes_true([&] { return count(WebEvent::kConnection) == 30; }));
-  EXPECT_GE(count(WebEvent::kTooMany), 22);
+  EXPECT_TRUE(becomes_true([&] { return count(WebEvent::kTooMany) == 22; }));
+  EXPECT_EQ(count(WebEvent::kConnection), 30);
 }
 
 TEST_F(WebHostileTest, HugeMessagesAndFloods) {
@@ -112,10 +113,11 @@ TEST_F(WebHostileTest, HugeMessagesAndFloods) {
   EXPECT_TRUE(becomes_true([&] { return count(WebEvent::kHugeMessage) == 1 && server_->clients() == 0; }));
 
   SocketClient flood(server_->port());
-  EXPECT_ANY_THROW({
-    for (int i = 0; i < 1'000'000; ++i) flood.send("x");
-  });
-  EXPECT_EQ(count(WebEvent::kFlood), 1);
+  EXPECT_TRUE(becomes_true([&] {
+    for (int i = 0; i < 100; ++i) flood.send("x");
+    return count(WebEvent::kFlood) == 1;
+  }));
+  EXPECT_ANY_THROW((void)flood.receive());
   EXPECT_TRUE(becomes_true([&] { return server_->clients() == 0; }));
 }
 

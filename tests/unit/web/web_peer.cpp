@@ -9,6 +9,7 @@
 #include <boost/asio/write.hpp>
 #include <boost/beast/core/buffers_to_string.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
+#include <cerrno>
 #include <chrono>
 #include <optional>
 #include <stdexcept>
@@ -30,7 +31,7 @@ std::string raw_exchange(std::uint16_t port, const std::string& bytes) {
   asio::io_context context;
   tcp::socket socket(context);
   socket.connect(local(port));
-  const timeval patience{5, 0};
+  const timeval patience{60, 0};
   setsockopt(socket.native_handle(), SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
   boost::system::error_code error;
   asio::write(socket, asio::buffer(bytes), error);  // the other end may have closed already
@@ -38,6 +39,7 @@ std::string raw_exchange(std::uint16_t port, const std::string& bytes) {
   std::array<char, 4096> chunk{};
   while (true) {
     const auto size = recv(socket.native_handle(), chunk.data(), chunk.size(), 0);
+    if (size < 0 && errno == EAGAIN) throw std::runtime_error("the server neither answered nor closed");
     if (size <= 0) return answer;
     answer.append(chunk.data(), static_cast<std::size_t>(size));
   }

@@ -12,7 +12,8 @@
 
 namespace graspd {
 
-/// Sends bytes as they are, and gives what comes back until the other end closes or goes silent for 5 s.
+/// Sends bytes as they are, and gives what comes back until the other end closes. Throws std::runtime_error
+/// where it does not.
 [[nodiscard]] std::string raw_exchange(std::uint16_t port, const std::string& bytes);
 
 /// "GET target HTTP/1.1" with this host header and "Connection: close"; further headers end with \r\n each.
