@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // graspd-bridge: graspd for programs that speak JSON over WebSockets.
 #include <CLI/CLI.hpp>
-#include <cstdlib>
 
 #include "client/bridge/bridge.hpp"
 #include "client/common/lcm_loop.hpp"
 #include "client/common/program.hpp"
 #include "client/common/text.hpp"
+#include "client/web/web_token.hpp"
 
 namespace graspd {
 namespace {
@@ -16,6 +16,7 @@ struct Options {
   std::string lcm_url;
   BridgeChannels channels;
   WebConfig web;
+  TokenPlaces token{"", "GRASPD_BRIDGE_TOKEN"};
   bool latest_only = false;
   std::string key_file;
 };
@@ -29,9 +30,10 @@ void add_options(CLI::App& app, Options& o) {
   add_lcm_url(app, o.lcm_url);
   add_version(app);
   app.add_option("--address", o.web.address,
-                 "address to listen on; one beyond this machine needs GRASPD_BRIDGE_TOKEN")
+                 "address to listen on; one beyond this machine needs a token of yours")
       ->capture_default_str();
   app.add_option("-p,--port", o.web.port, "port to listen on; 0: a free one")->capture_default_str();
+  add_token_file(app, o.token);
   app.add_option("--origin", o.web.origins,
                  "pages of this origin may connect, too, for example https://robot.example");
   app.add_option("--handles", o.channels.handles,
@@ -48,15 +50,11 @@ void add_options(CLI::App& app, Options& o) {
                "clients that are too slow miss handle lists instead of being closed");
   app.add_option("--key", o.key_file,
                  "sign what is sent with the first key of this file (see graspd-keygen)");
-  app.footer(
-      "The token is that of the environment variable GRASPD_BRIDGE_TOKEN, else drawn at the start. The first "
-      "line of "
-      "standard output is the WebSocket's address with it.");
+  app.footer("The first line of standard output is the WebSocket's address with the token.");
 }
 
 int bridge(const CLI::App& app, Options& o) {
-  const char* token = std::getenv("GRASPD_BRIDGE_TOKEN");  // NOLINT(concurrency-mt-unsafe): before any thread
-  if (token != nullptr) o.web.token = token;
+  o.web.token = given_token(o.token);
   if (!o.channels.clouds.empty()) o.web.max_message_bytes = kMaxCloudBytes;
   const std::string url = resolve_lcm_url(o.lcm_url);
   LcmBus bus(url);

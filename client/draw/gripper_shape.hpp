@@ -5,13 +5,9 @@
 #include <Eigen/Geometry>
 #include <array>
 
-#include "graspd/gripper_t.hpp"
-#include "graspd/handle_t.hpp"
+#include "client/common/gripper_pose.hpp"
 
 namespace graspd {
-
-/// Corner i has bit 0, 1 and 2 of i for the far side along x, y and z of the gripper frame.
-using Box = std::array<Eigen::Vector3f, 8>;
 
 struct GripperShape {
   std::array<Box, 3> boxes;  ///< two fingers and the palm, in the frame of the handle [m]

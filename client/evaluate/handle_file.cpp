@@ -2,26 +2,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "client/evaluate/handle_file.hpp"
 
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstring>
-#include <fstream>
-#include <iterator>
 
+#include "client/common/read_file.hpp"
 #include "client/common/text.hpp"
 
 namespace graspd {
 namespace {
 
 std::string read_text(const std::filesystem::path& path) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error))
-    throw CsvError(path.string() + ": is a folder, expected a CSV file");
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw CsvError(path.string() + ": cannot be read: " + std::strerror(errno));
-  return {std::istreambuf_iterator<char>(file), {}};
+  try {
+    return read_file(path);
+  } catch (const std::runtime_error& error) {
+    throw CsvError(error.what());
+  }
 }
 
 /// Takes the next record off the text; lines counts its line ends. False where a quote is never closed.

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "client/common/cloud_list.hpp"
+#include "client/common/gripper_pose.hpp"
 #include "client/common/text.hpp"
 #include "client/evaluate/label_decoder.hpp"
 #include "client/log/event_log_reader.hpp"
@@ -24,10 +25,9 @@ using Answers = std::map<std::pair<std::string, std::int64_t>, std::vector<Handl
 
 Handle handle_of(const handle_t& wire) {
   Handle handle;
-  handle.position = Eigen::Vector3d(wire.position).cast<float>();
-  const Eigen::Quaterniond q(wire.orientation[0], wire.orientation[1], wire.orientation[2],
-                             wire.orientation[3]);
-  handle.rotation = q.normalized().toRotationMatrix().cast<float>();
+  const Eigen::Isometry3d pose = T_frame_gripper(wire);
+  handle.position = pose.translation().cast<float>();
+  handle.rotation = pose.linear().cast<float>();
   handle.width_m = static_cast<float>(wire.width);
   handle.score = static_cast<float>(wire.score);
   return handle;

@@ -3,11 +3,11 @@
 #include "client/replay/plan.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
 
+#include "client/common/read_file.hpp"
 #include "client/common/replace_file.hpp"
 #include "client/common/text.hpp"
 #include "client/replay/effective_config.hpp"
@@ -138,11 +138,6 @@ Plan plan_from(const json& j) {
   return plan;
 }
 
-std::string file_text(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 void expect_same_logs(const Plan& plan) {
   std::error_code error;
   for (std::size_t i = 0; i < plan.logs.size(); ++i) {
@@ -188,7 +183,7 @@ void save_plan(const std::filesystem::path& folder, const Plan& plan, const Serv
   std::filesystem::create_directories(folder / "shards");
   const std::string text = to_json(plan).dump(1) + '\n', config = effective_config(service);
   const bool there = std::filesystem::exists(folder / "plan.json");
-  if (there && (file_text(folder / "plan.json") != text || file_text(folder / "config.yaml") != config))
+  if (there && (read_file(folder / "plan.json") != text || read_file(folder / "config.yaml") != config))
     throw std::runtime_error(folder.string() + ": holds another plan");
   if (there) return;
   replace_file(folder / "config.yaml", config);
@@ -197,7 +192,7 @@ void save_plan(const std::filesystem::path& folder, const Plan& plan, const Serv
 
 Plan load_plan(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "plan.json";
-  const json content = json::parse(file_text(file), nullptr, false);
+  const json content = json::parse(read_file(file), nullptr, false);
   try {
     Plan plan = plan_from(content);
     expect_same_logs(plan);

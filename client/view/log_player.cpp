@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "client/common/json_writer.hpp"
+#include "client/common/sealed_message.hpp"
 #include "client/log/event_log_reader.hpp"
 #include "service/transport/wire_layout.hpp"
 
@@ -18,12 +19,14 @@ constexpr std::int64_t kLongWait_us =
 
 }  // namespace
 
-LogPlayer::LogPlayer(const std::vector<std::filesystem::path>& files) : files_(files) {
-  for (std::uint32_t i = 0; i < files_.size(); ++i) index(i);
+LogPlayer::LogPlayer(const std::vector<std::filesystem::path>& files, std::span<const SealKey> keys)
+    : files_(files) {
+  for (std::uint32_t i = 0; i < files_.size(); ++i) index(i, keys);
   const bool clouds =
       std::any_of(events_.begin(), events_.end(), [](const Event& e) { return e.kind == Kind::kCloud; });
   if (!clouds)
-    throw EventLogError((files_.empty() ? "" : files_[0].string()) + ": no clouds are in this log");
+    throw EventLogError((files_.empty() ? "" : files_[0].string()) + ": no clouds are in this log" +
+                        (unopened_ ? ", but signed messages: --key FILE opens them with the right key" : ""));
   std::stable_sort(events_.begin(), events_.end(),
                    [](const Event& a, const Event& b) { return a.recv_utime < b.recv_utime; });
   start_us_ = events_.front().recv_utime;
@@ -33,15 +36,15 @@ LogPlayer::LogPlayer(const std::vector<std::filesystem::path>& files) : files_(f
 LogPlayer::Kind LogPlayer::kind_of(std::span<const std::byte> message) {
   const std::optional<std::uint64_t> type = fingerprint(message);
   if (type == kPointCloudFingerprint || type == kDepthImageFingerprint) return Kind::kCloud;
+  unopened_ = unopened_ || type == kSealedFingerprint;
   answers_ = answers_ || type == kHandleListFingerprint;
   segmentations_ = segmentations_ || type == kSegmentationFingerprint;
   if (type == kHandleListFingerprint) return Kind::kAnswer;
-  const bool ours =
-      type == kSegmentationFingerprint || type == kStatusFingerprint || type == kSealedFingerprint;
+  const bool ours = type == kSegmentationFingerprint || type == kStatusFingerprint;
   return ours ? Kind::kOther : Kind::kIgnored;
 }
 
-void LogPlayer::index(std::uint32_t file) {
+void LogPlayer::index(std::uint32_t file, std::span<const SealKey> keys) {
   EventLogReader reader(files_[file]);
   std::map<std::string, Kind> kinds;
   EventHead head;
@@ -50,7 +53,13 @@ void LogPlayer::index(std::uint32_t file) {
     auto known = kinds.find(head.channel);
     if (known == kinds.end()) {
       reader.read_message(message);
-      known = kinds.emplace(head.channel, kind_of(message)).first;
+      const auto inside = opened(keys, head.channel, message);
+      // What a stranger has signed says nothing of the channel.
+      if (!keys.empty() && fingerprint(inside) == kSealedFingerprint) {
+        unopened_ = true;
+        continue;
+      }
+      known = kinds.emplace(head.channel, kind_of(inside)).first;
     }
     if (known->second != Kind::kIgnored)
       events_.push_back({head.recv_utime, head.position, file, known->second});

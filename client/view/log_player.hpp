@@ -6,19 +6,22 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "client/view/commands.hpp"
 #include "client/view/viewer.hpp"
+#include "service/transport/seal.hpp"
 
 namespace graspd {
 
 /// Holds an index of the log's events of our types, and one message at a time. Belongs to one thread.
 class LogPlayer {
  public:
-  /// One log: its files in their order. Throws EventLogError when they cannot be read or hold no cloud.
-  explicit LogPlayer(const std::vector<std::filesystem::path>& files);
+  /// One log: its files in their order, and the keys that open what is signed. Throws EventLogError when they
+  /// cannot be read or hold no cloud that can.
+  LogPlayer(const std::vector<std::filesystem::path>& files, std::span<const SealKey> keys);
 
   void obey(const PlayerCommand& command, Viewer& viewer);
   /// Hands over what is due. To be called often; work that takes long makes the log run slower.
@@ -43,7 +46,7 @@ class LogPlayer {
     Kind kind = Kind::kIgnored;
   };
 
-  void index(std::uint32_t file);
+  void index(std::uint32_t file, std::span<const SealKey> keys);
   [[nodiscard]] Kind kind_of(std::span<const std::byte> message);
   void feed(Viewer& viewer);
   void step(Viewer& viewer);
@@ -53,6 +56,7 @@ class LogPlayer {
   std::vector<Event> events_;  // by time
   bool answers_ = false;
   bool segmentations_ = false;
+  bool unopened_ = false;
   std::size_t next_ = 0;
   std::int64_t start_us_ = 0;
   std::int64_t position_us_ = 0;  // from the start

@@ -5,7 +5,6 @@
 
 #include <chrono>
 #include <filesystem>
-#include <fstream>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -14,10 +13,12 @@
 #include "client/common/frame_publisher.hpp"
 #include "client/common/lcm_loop.hpp"
 #include "client/common/program.hpp"
+#include "client/common/sealed_message.hpp"
 #include "client/common/stop_flag.hpp"
 #include "client/log/log_parts.hpp"
 #include "client/view/log_player.hpp"
 #include "client/view/viewer.hpp"
+#include "client/web/web_token.hpp"
 #include "service/config/config_folders.hpp"
 
 namespace graspd {
@@ -25,7 +26,7 @@ namespace {
 
 struct Options {
   std::string lcm_url;
-  std::string token_file;
+  TokenPlaces token{"", "GRASPD_VIEW_TOKEN"};
   std::string page;
   std::string control_channel;
   ViewerOptions viewer;
@@ -40,11 +41,9 @@ void add_options(CLI::App& app, Options& o) {
       "the daemon's service file: channels, sensor poses and settings (default: graspd's defaults)");
   app.add_option("-p,--port", o.viewer.web.port, "to listen on; 0: a free one")->capture_default_str();
   app.add_option("--address", o.viewer.web.address,
-                 "to listen on; one beyond this machine needs --token-file, and so do its pages")
+                 "to listen on; one beyond this machine needs a token of yours, and so do its pages")
       ->capture_default_str();
-  app.add_option("--token-file", o.token_file,
-                 "whose first line, 16 characters at least, pages need to change anything (default: a new "
-                 "one each start)");
+  add_token_file(app, o.token);
   app.add_option("--control-channel", o.control_channel,
                  "where settings go to (default: the configuration's lcm.control_channel)");
   app.add_option("--key", o.viewer.key_file,
@@ -57,19 +56,10 @@ void add_options(CLI::App& app, Options& o) {
   app.add_option("--page", o.page, "folder of the page (default: the installed one)");
 }
 
-std::string read_token(const std::string& file) {
-  std::ifstream in(file);
-  std::string token;
-  if (!std::getline(in, token)) throw std::runtime_error(file + ": the token cannot be read");
-  constexpr std::size_t kShortest = 16;
-  if (token.size() < kShortest) throw std::runtime_error(file + ": the token is shorter than 16 characters");
-  return token;
-}
-
 void prepare(Options& o) {
   o.viewer.web.assets =
       o.page.empty() ? installed_config_folder().parent_path() / "view" : std::filesystem::path(o.page);
-  if (!o.token_file.empty()) o.viewer.web.token = read_token(o.token_file);
+  o.viewer.web.token = given_token(o.token);
 }
 
 void subscribe(LcmBus& bus, Viewer& viewer) {
@@ -113,7 +103,7 @@ int view_live(const CLI::App& app, const Options& o) {
 }
 
 int view_log(const Options& o) {
-  LogPlayer player(list_logs({o.viewer.log_file}));
+  LogPlayer player(list_logs({o.viewer.log_file}), seal_keys_of(o.viewer.key_file));
   Viewer viewer(o.viewer);
   if (player.has_segmentations()) viewer.expect_segmentations();
   viewer.on_player([&](const PlayerCommand& command) { player.obey(command, viewer); });

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <utility>
+
+#include "client/common/read_file.hpp"
 
 namespace graspd {
 namespace {
@@ -16,13 +16,6 @@ namespace fs = std::filesystem;
 
 // Where Vite puts files that have a hash of their content in their name.
 constexpr std::string_view kHashedFolder = "/assets/";
-
-std::string read_file(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  if (!file.good() && !file.eof()) throw std::runtime_error(path.string() + ": the file cannot be read");
-  return bytes;
-}
 
 bool is_inside(const fs::path& file, const fs::path& folder) {
   const auto [end, rest] = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());

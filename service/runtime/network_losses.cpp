@@ -3,9 +3,9 @@
 #include "service/runtime/network_losses.hpp"
 
 #include <charconv>
-#include <fstream>
-#include <iterator>
 #include <string>
+
+#include "service/runtime/file_text.hpp"
 
 namespace graspd {
 namespace {
@@ -18,8 +18,7 @@ std::string_view take_until(std::string_view& rest, char end) {
 }
 
 NetworkLosses totals() {
-  std::ifstream file("/proc/net/snmp");
-  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  const std::string text = file_text("/proc/net/snmp");
   return {snmp_value(text, "Udp", "RcvbufErrors").value_or(-1),
           snmp_value(text, "Ip", "ReasmFails").value_or(-1)};
 }

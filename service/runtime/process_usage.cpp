@@ -6,10 +6,10 @@
 
 #include <charconv>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <system_error>
+
+#include "service/runtime/file_text.hpp"
 
 namespace graspd {
 namespace {
@@ -45,8 +45,7 @@ std::int64_t status_number(std::string_view status_text, std::string_view key) {
 
 ProcessUsage ProcessUsageMeter::measure(Clock::TimePoint now) {
   ProcessUsage usage;
-  std::ifstream file("/proc/self/status");
-  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  const std::string text = file_text("/proc/self/status");
   usage.rss_bytes = status_bytes(text, "VmRSS");
   usage.peak_rss_bytes = status_bytes(text, "VmHWM");
   usage.threads = static_cast<int>(status_number(text, "Threads"));

@@ -116,6 +116,21 @@ class Bridge(GraspdTest):
         self.assertIn("token", program.err)
         self.assertEqual(program.out, "")
 
+    def test_a_token_of_ones_own(self):
+        file = self.folder / "token"
+        file.write_text("fifteen letters\n", encoding="ascii")
+        for options, environment in ((["--token-file", file], {}), ([], {"GRASPD_BRIDGE_TOKEN": "short"})):
+            program = self.run_program("graspd-bridge", "--port", 0, *options, environment=environment, code=1)
+            self.assertIn("shorter than 16", program.err)
+            self.assertNotIn("fifteen", program.err)
+        token = "sixteen-letters!"
+        file.write_text(token + "\n", encoding="ascii")
+        for options, environment in ((["--token-file", file], {}), ([], {"GRASPD_BRIDGE_TOKEN": token})):
+            program = self.start("graspd-bridge", "--port", 0, *options, environment=environment)
+            wait_until(program.lines, "the address")
+            self.assertTrue(program.lines()[0].endswith("?token=" + token))
+            program.stop()
+
 
 if __name__ == "__main__":
     run_tests()

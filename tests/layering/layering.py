@@ -52,6 +52,7 @@ LIBRARIES = [
     ("LCM", re.compile(r"lcm/"), {"service/transport", "client", "tests"}),
     ("libsodium", re.compile(r"sodium"), {"service/transport", "client"}),
     ("zlib, libspng", re.compile(r"(zlib|spng)\.h"), {"service/transport", "tests"}),
+    ("zstd", re.compile(r"zstd\.h"), {"client"}),
     ("yaml-cpp", re.compile(r"yaml-cpp/"), {"service/config", "tests"}),
     ("spdlog", re.compile(r"(spdlog|fmt)/"), {"service/runtime", "service/daemon", "client"}),
     ("CLI11", re.compile(r"CLI/"), {"service/daemon", "client", "tests"}),
