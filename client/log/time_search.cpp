@@ -33,17 +33,14 @@ TimeSearch::TimeSearch(std::filesystem::path log, const EventLogReader::Part& pa
 }
 
 bool TimeSearch::sample(std::int64_t begin, std::int64_t end) {
-  EventLogReader reader(log_, {begin, part_.end});
-  EventHead head, next;
-  bool found = reader.next_head(head);
-  while (found && head.position < end) {
+  EventLogReader reader(log_, {begin, end});
+  EventHead head;
+  while (reader.next_head(head)) {
     const std::int64_t follows = reader.position();
-    found = reader.next_head(next);
-    if (!found || next.position == follows) {
-      last_sample_ = samples_.emplace(head.position, head.recv_utime).first;
-      return true;
-    }
-    head = next;
+    EventHead next;
+    if (follows < part_.end && !EventLogReader(log_, {follows, follows + 1}).next_head(next)) continue;
+    last_sample_ = samples_.emplace(head.position, head.recv_utime).first;
+    return true;
   }
   return false;
 }
@@ -67,7 +64,9 @@ void TimeSearch::sample_all() {
   if (std::exchange(all_sampled_, true)) return;
   const std::int64_t step =
       std::max(config_.sample_bytes, (part_.end - part_.begin) / config_.most_samples + 1);
-  for (std::int64_t at = part_.begin + step; at < part_.end; at += step) (void)sample(at, part_.end);
+  // Where there are no events for long, nothing is read twice.
+  for (std::int64_t at = part_.begin + step; at < part_.end && sample(at, part_.end);)
+    at = std::max(at, last_sample_->first) + step;
 }
 
 TimeSearch::Bracket TimeSearch::bracket(std::int64_t utime) {

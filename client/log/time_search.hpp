@@ -41,7 +41,7 @@ class TimeSearch {
   [[nodiscard]] const std::string& disorder() const { return disorder_; }
 
  private:
-  /// The first event that another one or the end follows, beginning in [begin, end).
+  /// The first event beginning in [begin, end) that another one or the part's end follows at once.
   [[nodiscard]] bool sample(std::int64_t begin, std::int64_t end);
   void sample_ends();
   void sample_all();

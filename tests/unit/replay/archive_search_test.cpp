@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <optional>
+
 #include "client/replay/player.hpp"
 #include "tests/unit/replay/random_log.hpp"
 
@@ -111,6 +114,33 @@ TEST(ArchiveSearch, PartsOfLogsStayWhatTheyAre) {
   for (int i = 0; i < 100; ++i) ASSERT_TRUE(reader.next_head(head));
   archive.parts[0].part.end = head.position;
   expect_equal_to_a_scan(archive, "a part");
+}
+
+/// Bytes that this process has read from files; nothing where the kernel does not count.
+std::optional<std::int64_t> bytes_read() {
+  std::ifstream file("/proc/self/io");
+  std::string name;
+  std::int64_t bytes = 0;
+  return file >> name >> bytes && name == "rchar:" ? std::optional(bytes) : std::nullopt;
+}
+
+TEST(ArchiveSearch, ReadsWhatIsNoEventAFewTimesAtMost) {
+  if (!bytes_read()) GTEST_SKIP() << "/proc/self/io cannot be read";
+  RandomArchive archive(6, {.events = 100}, 1);
+  const std::filesystem::path path = archive.parts[0].path;
+  // Between the events, and behind them.
+  constexpr std::int64_t kHole = 10'000'000;
+  const std::string events = read_bytes(path), hole(kHole, '\0');
+  write_random_log(archive.folder / "later", archive.rng, {.events = 100, .start_utime = archive.end_utime});
+  write_bytes(path, events + hole + read_bytes(archive.folder / "later") + hole);
+  TimeSearchConfig many = kSmall;
+  many.most_samples = 1'000'000;
+  const std::int64_t before = *bytes_read();
+  for (int i = 0; i < 5; ++i) {
+    ArchiveSearch search(archive.parts, many);
+    (void)search.stretch(archive.end_utime / 2, archive.end_utime * 5 / 4);
+  }
+  EXPECT_LT(*bytes_read() - before, 5 * 6 * 2 * kHole);
 }
 
 TEST(ArchiveSearch, WhatIsNoLogIsReadWhole) {
