@@ -35,6 +35,24 @@ wait_for_restart() {
   done
 }
 
+# How many messages it has refused so far, by its own status.
+refused() {
+  sleep 1
+  graspd-status --once --format json --timeout 20 | tr -d ' ' | grep -o '"refused":[0-9]*' | head -n 1 | cut -d : -f 2
+}
+
+# Three messages that it would refuse, from another host to our address.
+send_from_other() {
+  for _ in 1 2 3; do
+    nsenter --target "$other" --net bash -c 'printf "LC02\0\0\0\1GRASPD_CLOUD\0junk" > /dev/udp/10.78.0.1/7667'
+  done
+}
+
+# systemd-nspawn mounts the controllers of cgroup version 1 for reading alone; systemd looks for them as it starts.
+if [ -d /sys/fs/cgroup/memory ]; then
+  mount -o remount,bind,rw,nosuid,nodev,noexec /sys/fs/cgroup/memory
+  systemctl daemon-reexec
+fi
 ip link set lo up
 ip route add 239.0.0.0/8 dev lo src 127.0.0.1
 mkdir -p /etc/graspd
@@ -75,6 +93,39 @@ echo "answers_again=$(answers)"
 kill -KILL "$(show MainPID)"
 wait_for_restart 2
 echo "restarts_after_kill=$(show NRestarts)"
+
+unshare --net sleep 1000 &
+other=$!
+until [ "$(readlink /proc/$other/ns/net)" != "$(readlink /proc/self/ns/net)" ]; do sleep 0.1; done
+ip link add veth0 type veth peer name veth1 netns "$other"
+ip address add 10.78.0.1/24 dev veth0
+ip link set veth0 up
+nsenter --target "$other" --net ip address add 10.78.0.2/24 dev veth1
+nsenter --target "$other" --net ip link set veth1 up
+send_from_other
+echo "foreign_refused=$(refused)"
+printf 'LC02\0\0\0\1GRASPD_CLOUD\0junk' > /dev/udp/127.0.0.1/7667
+echo "local_refused=$(refused)"
+mkdir -p /run/systemd/system/graspd.service.d
+printf '[Service]\nIPAddressAllow=any\n' > /run/systemd/system/graspd.service.d/open.conf
+systemctl daemon-reload
+systemctl restart graspd
+send_from_other
+echo "foreign_refused_without_rule=$(refused)"
+rm /run/systemd/system/graspd.service.d/open.conf
+systemctl daemon-reload
+systemctl restart graspd
+kill $other
+
+echo "memory_current=$(show MemoryCurrent)"
+systemctl set-property --runtime graspd MemoryMax=24M
+pid_before=$(show MainPID)
+graspd-simulate --width 640 --frames 3 --rate 2 2> /dev/null
+wait_for_restart 1
+echo "restarts_after_memory=$(show NRestarts)"
+if [ "$(show MainPID)" != "$pid_before" ] && journal | grep -q 'status=9/KILL'; then echo "memory_kill=yes"; fi
+systemctl set-property --runtime graspd MemoryMax=4G
+echo "answers_after_memory=$(answers)"
 
 start=$(date +%s%N)
 systemctl stop graspd

@@ -9,6 +9,7 @@
 The container has a network of its own. What it does is in boot_script.sh; it writes what it sees, and is judged here.
 """
 import argparse
+import contextlib
 import os
 import pathlib
 import re
@@ -20,7 +21,7 @@ import tempfile
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 PACKAGES = ["systemd", "systemd-sysv", "dbus", "iproute2", "libtbb12", "libspdlog1.10", "libyaml-cpp0.7", "libsodium23",
-            "liblcm1", "libglib2.0-0"]
+            "liblcm1", "libglib2.0-0", "libspng0"]
 PROGRAMS = ["graspd", "graspd-simulate", "graspd-status", "graspd-listen"]
 DYNAMIC_UIDS = range(61184, 65520)
 CHECK_UNIT = """[Unit]
@@ -57,10 +58,30 @@ def make_root(folder, tar, binaries):
     return root
 
 
+@contextlib.contextmanager
+def memory_group():
+    """A command that puts what follows into a memory group of its own, where groups are of version 1: the container's
+    systemd sets limits below it."""
+    controller = pathlib.Path("/sys/fs/cgroup/memory")
+    if not controller.is_dir():
+        yield []
+        return
+    group = controller / f"graspd-boot-{os.getpid()}"
+    group.mkdir()
+    try:
+        yield ["sh", "-c", f'echo $$ > {group}/cgroup.procs && exec "$@"', "sh"]
+    finally:
+        for path in sorted((p for p in group.rglob("*") if p.is_dir()), reverse=True):
+            path.rmdir()
+        group.rmdir()
+
+
 def boot(root, patience_s):
-    command = ["systemd-nspawn", "-D", str(root), "--boot", "--private-network", "--register=no", "--keep-unit", "-q"]
-    with open(root.parent / "console.log", "wb") as console:
-        subprocess.run(["unshare", "--mount", *command], stdin=subprocess.DEVNULL, stdout=console, stderr=console,
+    # systemd's firewall for a unit is a BPF program, which nspawn allows nobody otherwise.
+    command = ["systemd-nspawn", "-D", str(root), "--boot", "--private-network", "--register=no", "--keep-unit", "-q",
+               "--capability=CAP_BPF", "--system-call-filter=bpf"]
+    with open(root.parent / "console.log", "wb") as console, memory_group() as prefix:
+        subprocess.run(["unshare", "--mount", *prefix, *command], stdin=subprocess.DEVNULL, stdout=console, stderr=console,
                        timeout=patience_s, check=False)
 
 
@@ -94,6 +115,13 @@ def checks(seen):
          seen.get("restarted_pid") != seen.get("pid"), f"{seen.get('restarts')} restarts"),
         ("the restarted one answers frames", number("answers_again") >= 3, seen.get("answers_again")),
         ("restarted after SIGKILL", number("restarts_after_kill") == 2, f"{seen.get('restarts_after_kill')} restarts"),
+        ("IPAddressDeny: what another host sends does not arrive", number("foreign_refused") == 0 and
+         number("foreign_refused_without_rule") == 3,
+         f"{seen.get('foreign_refused')} of 3, without the rule {seen.get('foreign_refused_without_rule')} of 3"),
+        ("what comes from this machine does", number("local_refused") == 1, f"{seen.get('local_refused')} of 1"),
+        ("MemoryMax: killed beyond it, and restarted", seen.get("memory_kill") == "yes" and
+         number("restarts_after_memory") == 1, f"{seen.get('restarts_after_memory')} restarts"),
+        ("the restarted one answers frames", number("answers_after_memory") >= 3, seen.get("answers_after_memory")),
         ("clean stop", seen.get("stop_result") == "success" and seen.get("stop_state") == "inactive" and
          number("stop_ms") < 3000, f"{seen.get('stop_result')}, {seen.get('stop_ms')} ms"),
     ]
