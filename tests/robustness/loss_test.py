@@ -5,11 +5,11 @@ import shutil
 import subprocess
 import sys
 
-from trial import (CLOUDS, HANDLES, LIST, MOST_AT_ONCE, STATUS, TYPES, Camera, Trial, options_of, run_trial, table, wait_until,
-                   waiting_bytes)
+from trial import (CLOUDS, HANDLES, LIST, MOST_AT_ONCE, SANITIZED, STATUS, TYPES, Camera, Trial, options_of, run_trial, table,
+                   wait_until, waiting_bytes)
 from two_hosts import HERE, OUR_ADDRESS, OtherHost, run
 
-OPTIONS = options_of(__doc__, messages=100, percent=2.0, width=320)
+OPTIONS = options_of(__doc__, messages=30 if SANITIZED else 100, percent=2.0, width=320)
 CONFIG = "sources: [{name: camera, channel: GRASPD_CLOUD, policy: all, queue_length: 1000}]\n"
 # Sends the message of each line's length on standard input, from the other host.
 SENDER = """

@@ -10,7 +10,7 @@ import sys
 import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "integration"))
-from harness import BIN, CLOUDS, HANDLES, STATUS, TYPES, listening_sockets, run_tests, wait_until  # noqa: E402, F401
+from harness import BIN, CLOUDS, HANDLES, SANITIZED, STATUS, TYPES, listening_sockets, run_tests, wait_until  # noqa: E402, F401
 from lcm_udp import Bus  # noqa: E402
 from traffic import MOST_AT_ONCE, TrafficTest, waiting_bytes  # noqa: E402, F401
 
