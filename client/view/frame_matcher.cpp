@@ -104,13 +104,13 @@ void FrameMatcher::add_segmentation(const std::string& name, std::int64_t utime,
 void FrameMatcher::look(std::int64_t now_us) {
   for (auto& [name, channel] : channels_) {
     if (channel.waiting.empty()) continue;
-    const auto late =
-        std::find_if(channel.waiting.rbegin(), channel.waiting.rend(), [&](const MatchedFrame& f) {
-          if (!f.list) return false;
-          const bool passed_over = f.list->status == handle_list_t::OVERLOADED;
-          return passed_over ? f.arrived_us - channel.last_given_us > kSilence_us
-                             : now_us - f.answered_us > kSegmentationWait_us;
-        });
+    const auto late = std::find_if(channel.waiting.rbegin(), channel.waiting.rend(),
+                                   [now_us, last_given_us = channel.last_given_us](const MatchedFrame& f) {
+                                     if (!f.list) return false;
+                                     const bool passed_over = f.list->status == handle_list_t::OVERLOADED;
+                                     return passed_over ? f.arrived_us - last_given_us > kSilence_us
+                                                        : now_us - f.answered_us > kSegmentationWait_us;
+                                   });
     if (late != channel.waiting.rend())
       give(channel, &*late);
     else if (!within(channel.last_list_us, now_us, kSilence_us) &&
