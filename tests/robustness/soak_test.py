@@ -10,6 +10,7 @@ from trial import (CLOUDS, HANDLES, LIST, PROCESSED, STATUS, TYPES, Camera, Proc
 OPTIONS = options_of(__doc__, seconds=10.0, rate=10.0, kind="depth", width=320, warm_up=3.0)
 CONFIG = "sources: [{name: camera, channel: GRASPD_CLOUD, policy: latest}]\n"
 LONG_S = 300  # from here on memory must have settled
+FEWEST = 10  # frames worked on before the first look at memory, and after it, however long that takes
 
 
 class Soak(Trial):
@@ -30,9 +31,11 @@ class Soak(Trial):
         daemon = self.start_listening("graspd", "--config", self.write_config(CONFIG))
         wait_until(lambda: (listener.receive(0.02), self.status)[1], "the first status")
         process, samples = Process(daemon.process.pid), []
-        start = time.monotonic()
-        while (elapsed := time.monotonic() - start) < OPTIONS.warm_up + OPTIONS.seconds:
-            if elapsed > OPTIONS.warm_up and len(samples) < elapsed - OPTIONS.warm_up:
+        start, warm = time.monotonic(), None
+        while warm is None or time.monotonic() - warm < OPTIONS.seconds or len(self.latencies_ms) < 2 * FEWEST:
+            if warm is None and time.monotonic() - start > OPTIONS.warm_up and len(self.latencies_ms) >= FEWEST:
+                warm = time.monotonic()
+            if warm is not None and len(samples) < time.monotonic() - warm:
                 samples.append((process.rss_bytes(), process.descriptors(), process.threads()))
             self.send_paced(listener, CLOUDS, camera.next())
             self.receive_until(listener, start + camera.seq / OPTIONS.rate)
