@@ -10,6 +10,7 @@
 #include "client/common/cloud_colors.hpp"
 #include "client/common/cloud_list.hpp"
 #include "client/common/handle_text.hpp"
+#include "client/common/sealed_message.hpp"
 #include "client/common/text.hpp"
 #include "client/log/event_log_reader.hpp"
 #include "service/pipeline/detect_handles.hpp"
@@ -33,8 +34,9 @@ struct FoundFrame {
 
 class Search {
  public:
-  Search(std::size_t number, const CloudInput& input, std::vector<std::string>& problems)
-      : left_(number), input_(input), problems_(problems) {}
+  Search(std::size_t number, const CloudInput& input, std::span<const SealKey> keys,
+         std::vector<std::string>& problems)
+      : left_(number), input_(input), keys_(keys), problems_(problems) {}
 
   bool in_file(const std::filesystem::path& path) {
     try {
@@ -54,8 +56,11 @@ class Search {
     EventLogReader reader(log);
     LoggedEvent event;
     bool is_found = false;
+    std::int64_t unopened = 0;
     while (!is_complete() && reader.next(event)) {
-      if (!is_found) {
+      if (!open(event)) {
+        ++unopened;
+      } else if (!is_found) {
         is_found = take_cloud(event, log);
       } else {
         take_answer(event);
@@ -64,6 +69,10 @@ class Search {
     if (reader.skipped_bytes() > 0)
       problems_.push_back(log.string() + printed(": %lld bytes are damaged, and were left out",
                                                  static_cast<long long>(reader.skipped_bytes())));
+    if (unopened > 0)
+      problems_.push_back(log.string() +
+                          printed(": %lld signed messages were left out: --key FILE opens them",
+                                  static_cast<long long>(unopened)));
     return is_found;
   }
 
@@ -71,6 +80,15 @@ class Search {
 
  private:
   [[nodiscard]] bool is_complete() const { return found_.list && found_.segmentation; }
+
+  /// Puts what a signed message holds in its place; false: no key opens it.
+  bool open(LoggedEvent& event) const {
+    if (fingerprint(event.bytes) != kSealedFingerprint) return true;
+    const auto inside = opened(keys_, event.channel, event.bytes);
+    if (inside.data() == event.bytes.data()) return false;
+    event.bytes = std::vector<std::byte>(inside.begin(), inside.end());
+    return true;
+  }
 
   bool take_cloud(const LoggedEvent& event, const std::filesystem::path& log) {
     const auto type = fingerprint(event.bytes);
@@ -108,6 +126,7 @@ class Search {
 
   std::size_t left_;
   const CloudInput& input_;
+  std::span<const SealKey> keys_;
   std::vector<std::string>& problems_;
   FoundFrame found_;
 };
@@ -133,8 +152,9 @@ void detect(FoundFrame& found, const SourceConfig& source) {
 }  // namespace
 
 PictureFrame find_drawn_frame(const std::vector<std::string>& arguments, std::size_t number,
-                              const SourceConfig& source, std::vector<std::string>& problems) {
-  Search search(number, source.input, problems);
+                              const SourceConfig& source, std::span<const SealKey> keys,
+                              std::vector<std::string>& problems) {
+  Search search(number, source.input, keys, problems);
   bool is_found = false;
   for (const auto& path : list_cloud_files(arguments)) {
     is_found = is_event_log(path) ? search.in_log(path) : search.in_file(path);

@@ -10,6 +10,7 @@
 
 #include "client/common/program.hpp"
 #include "client/common/replace_file.hpp"
+#include "client/common/sealed_message.hpp"
 #include "client/detect/detect_options.hpp"
 #include "client/draw/drawn_frame.hpp"
 
@@ -20,6 +21,7 @@ struct Options {
   std::vector<std::string> inputs;
   std::string output;
   std::size_t number = 0;
+  std::string key_file;
   std::string view = "camera";
   std::string color = "segment";
   std::string size = "960x720";
@@ -54,6 +56,7 @@ void add_options(CLI::App& app, Options& o) {
   app.add_option("files", o.inputs, "PCD or PLY files, folders of them, or LCM event logs")->required();
   app.add_option("-o,--output", o.output, "the PNG file; - for standard output")->required();
   app.add_option("--frame", o.number, "which one of all frames, from 0")->capture_default_str();
+  app.add_option("--key", o.key_file, "opens signed messages (sealed_t) of logs");
   app.add_option("--view", o.view, "where it is seen from")
       ->check(CLI::IsMember(kViews))
       ->capture_default_str();
@@ -75,10 +78,19 @@ int draw(const CLI::App& app, const Options& o) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
   tbb::task_arena arena(threads);
+  const std::vector<SealKey> keys = seal_keys_of(o.key_file);
   std::vector<std::string> problems;
   PictureFrame frame;
-  arena.execute([&] { frame = find_drawn_frame(o.inputs, o.number, source, problems); });
-  for (const std::string& problem : problems) say(app, problem);
+  const auto say_problems = [&] {
+    for (const std::string& problem : problems) say(app, problem);
+  };
+  try {
+    arena.execute([&] { frame = find_drawn_frame(o.inputs, o.number, source, keys, problems); });
+  } catch (const std::exception&) {
+    say_problems();  // they may be why
+    throw;
+  }
+  say_problems();
   PictureOptions picture = o.picture;
   picture.view = chosen<PictureView>(kViews, o.view);
   picture.color = chosen<PictureColor>(kColors, o.color);

@@ -19,7 +19,7 @@ import time
 HERE = pathlib.Path(__file__).resolve().parent
 # Bytes of the largest input, where libFuzzer's own choice is too small for all of a file, or large ones are slow.
 MAX_BYTES = {"detect": 3400, "service_config": 1024, "sensor_config": 1024, "gripper_config": 1024, "pcd": 4096, "ply": 4096,
-             "event_log": 4096}
+             "event_log": 4096, "parquet": 4096}
 DICTIONARIES = {"service_config": "config", "gripper_config": "config", "sensor_config": "config", "pcd": "pcd",
                 "ply": "ply", "event_log": "event_log"}
 

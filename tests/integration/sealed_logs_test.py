@@ -82,6 +82,18 @@ class SealedLogs(GraspdTest):
             self.run_program("graspd-compare", before, after, "-o", report, "--clouds", self.log, *options)
             self.assertEqual(bool(list(report.glob("*.png"))), pictures)
 
+    def test_drawn_with_the_key(self):
+        pictures = [self.folder / name for name in ("sealed.png", "plain.png")]
+        # Of equal names: a picture's title names the log.
+        for folder, events in (("signed", self.sealed), ("open", self.plain)):
+            (self.folder / folder).mkdir()
+            write_log(self.folder / folder / "a.log", events)
+        for path, (folder, options) in zip(pictures, (("signed", ["--key", self.key_file]), ("open", []))):
+            self.run_program("graspd-draw", self.folder / folder / "a.log", "--frame", 2, "-o", path, *options)
+        self.assertEqual(pictures[0].read_bytes(), pictures[1].read_bytes())
+        closed = self.run_program("graspd-draw", self.folder / "signed/a.log", "-o", pictures[0], code=1)
+        self.assertIn("--key FILE opens them", closed.err)
+
     def test_played_with_the_key_they_are_sent_open(self):
         bus = self.open_bus()
         for options, want in ((["--key", self.key_file], self.plain), ([], self.sealed)):

@@ -31,7 +31,7 @@ struct Found {
 
 Found find(const std::filesystem::path& path, std::size_t number = 0) {
   Found found;
-  found.frame = find_drawn_frame({path.string()}, number, SourceConfig{}, found.problems);
+  found.frame = find_drawn_frame({path.string()}, number, SourceConfig{}, {}, found.problems);
   return found;
 }
 
