@@ -7,7 +7,7 @@ import sys
 
 from trial import (CLOUDS, HANDLES, LIST, MOST_AT_ONCE, SANITIZED, STATUS, TYPES, Camera, Trial, options_of, run_trial, table,
                    wait_until, waiting_bytes)
-from two_hosts import HERE, OUR_ADDRESS, OtherHost, run
+from two_hosts import HERE, OTHER_ADDRESS, OUR_ADDRESS, OtherHost, run
 
 OPTIONS = options_of(__doc__, messages=30 if SANITIZED else 100, percent=2.0, width=320)
 CONFIG = "sources: [{name: camera, channel: GRASPD_CLOUD, policy: all, queue_length: 1000}]\n"
@@ -39,10 +39,11 @@ class Loss(Trial):
 
     @staticmethod
     def drop(share):
-        """From now on this share of the datagrams that come over the cable is lost."""
+        """From now on this share of the other host's datagrams is lost; answers, which come back over the same interface,
+        are not."""
         run("iptables", "-F", "INPUT")
         if share > 0:
-            run("iptables", "-A", "INPUT", "-i", "veth0", "-p", "udp", "-m", "statistic", "--mode", "random",
+            run("iptables", "-A", "INPUT", "-s", OTHER_ADDRESS, "-p", "udp", "-m", "statistic", "--mode", "random",
                 "--probability", str(share), "-j", "DROP")
 
     def note(self, channel, data):
@@ -56,7 +57,7 @@ class Loss(Trial):
 
     def send(self, camera):
         wait_until(lambda: (self.listener.receive(0), waiting_bytes() == 0 and
-                            len(self.arrived) - len(self.answers) < MOST_AT_ONCE // 2)[1], "the receivers")
+                            len(self.arrived) - len(self.answers) < MOST_AT_ONCE)[1], "the receivers")
         data = camera.next()
         self.sender.stdin.write(b"%d\n" % len(data) + data)
         self.sender.stdin.flush()
