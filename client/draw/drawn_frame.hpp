@@ -15,9 +15,9 @@ namespace graspd {
 
 /// The frame with this number, from 0, of files, folders and LCM event logs one after the other. A log's own
 /// handles and segments are drawn where it has them for the frame; whatever is missing is found by the method
-/// with these settings, in the calling thread's oneTBB arena. The keys open what is signed in logs. What cannot
-/// be used on the way there is left out and said in `problems`. Throws CloudFileError or EventLogError for
-/// arguments that do not exist, std::runtime_error where there is no such frame.
+/// with these settings, in the calling thread's oneTBB arena. The keys open what is signed in logs. What
+/// cannot be used on the way there is left out and said in `problems`. Throws CloudFileError or EventLogError
+/// for arguments that do not exist, std::runtime_error where there is no such frame.
 [[nodiscard]] PictureFrame find_drawn_frame(const std::vector<std::string>& arguments, std::size_t number,
                                             const SourceConfig& source, std::span<const SealKey> keys,
                                             std::vector<std::string>& problems);
