@@ -10,6 +10,7 @@
 #include "client/bench/suites.hpp"
 #include "client/common/program.hpp"
 #include "client/simulate/scene_builder.hpp"
+#include "service/runtime/freed_memory.hpp"
 
 namespace graspd {
 namespace {
@@ -89,6 +90,7 @@ int run(const CLI::App& app, const BenchOptions& options) {
 }  // namespace graspd
 
 int main(int argc, char** argv) {
+  graspd::keep_freed_memory();  // as the daemon does
   CLI::App app("Times graspd, from clouds, messages or the bus to handles, and PCL on the same clouds.",
                "graspd-bench");
   graspd::BenchOptions options;
