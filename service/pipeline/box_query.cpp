@@ -49,89 +49,87 @@ BoxTest box_test(const Eigen::Vector3f& origin, const Eigen::Matrix3f& rotation,
 
 /// The box, and which cells it meets.
 struct BoxQuery::Box {
-  /// One pair of faces, as rows along x meet them.
-  struct Slab {
-    float per_x;  // 0: the faces are parallel to x
-    float min, max;
-  };
+  /// One value for each of the box's three pairs of faces, as rows along x meet them, and for the pair across
+  /// x of the box that is parallel to the axes and holds this one.
+  using Faces = Eigen::Array4f;
 
-  Eigen::Vector3f center, reach;  // of the box that is parallel to the axes and holds this one
+  Eigen::Vector3f center, reach;  // of the parallel box
   BoxTest test;
-  Slab slabs[3];
+  Faces per_y, per_z;  // how far the faces move along their normal from row to row
+  Faces min, max;      // where they are
+  Faces per_distance;  // x for each metre along the normal
 
   /// r: half thickness of the rows that are asked for.
-  Box(const Eigen::Vector3f& origin, const Eigen::Matrix3f& rotation, const Eigen::Vector3f& min,
-      const Eigen::Vector3f& max, float r)
-      : center(origin + rotation * (0.5f * (min + max))),
-        reach(rotation.cwiseAbs() * (0.5f * (max - min))),
-        test(box_test(origin, rotation, min, max)) {
+  Box(const Eigen::Vector3f& origin, const Eigen::Matrix3f& rotation, const Eigen::Vector3f& min_m,
+      const Eigen::Vector3f& max_m, float r)
+      : center(origin + rotation * (0.5f * (min_m + max_m))),
+        reach(rotation.cwiseAbs() * (0.5f * (max_m - min_m))),
+        test(box_test(origin, rotation, min_m, max_m)),
+        per_y(rotation(1, 0), rotation(1, 1), rotation(1, 2), 0),
+        per_z(rotation(2, 0), rotation(2, 1), rotation(2, 2), 0) {
+    constexpr float kNowhere = 1e9f;
     for (int i = 0; i < 3; ++i) {
       const float x = rotation(0, i),
                   slack = r * (std::abs(rotation(1, i)) + std::abs(rotation(2, i))) + 1e-5f;
-      slabs[i] = {std::abs(x) < 1e-4f ? 0 : 1 / x, min[i] - slack - test.shift[i],
-                  max[i] + slack - test.shift[i]};
+      const bool is_parallel = std::abs(x) < 1e-4f;  // to x: the pair does not bound it
+      min[i] = is_parallel ? -kNowhere : min_m[i] - slack - test.shift[i];
+      max[i] = is_parallel ? kNowhere : max_m[i] + slack - test.shift[i];
+      per_distance[i] = is_parallel ? 1 : 1 / x;
     }
+    min[3] = center.x() - reach.x();
+    max[3] = center.x() + reach.x();
+    per_distance[3] = 1;
   }
 
   /// The x that the row around the line (y, z) can have inside the box; empty when the first is larger.
   [[nodiscard]] std::pair<float, float> x_of_row(float y, float z) const {
-    float lo = center.x() - reach.x(), hi = center.x() + reach.x();
-    for (int i = 0; i < 3; ++i) {
-      const float base = test.to_local[i][1] * y + test.to_local[i][2] * z;
-      const float from = slabs[i].min - base, to = slabs[i].max - base, per_x = slabs[i].per_x;
-      if (per_x == 0) {
-        if (from > 1e-4f * std::abs(lo) + 1e-3f || to < -1e-4f * std::abs(lo) - 1e-3f) hi = lo - 1;
-        continue;
-      }
-      lo = std::max(lo, (per_x > 0 ? from : to) * per_x);
-      hi = std::min(hi, (per_x > 0 ? to : from) * per_x);
-    }
-    return {lo, hi};
+    const Faces base = per_y * y + per_z * z;
+    const Faces from = (min - base) * per_distance, to = (max - base) * per_distance;
+    return {from.min(to).maxCoeff(), from.max(to).minCoeff()};
   }
 };
 
-BoxQuery::BoxQuery(const PointCloud& cloud, float cell_m)
-    : order_(order_by_cell(cloud, cell_m)), points_(cloud, order_.points) {
-  std::int64_t end_of_row = std::numeric_limits<std::int64_t>::min();
-  for (std::size_t c = 0; c < order_.num_cells(); ++c) {
-    const std::int64_t key = order_.keys[c];
-    if (key < end_of_row) continue;
-    const std::int64_t z = key / order_.layer, y = key % order_.layer / order_.row;
-    rows_.push_back(
-        {static_cast<int>(z) + order_.min_cell.z(), static_cast<int>(y) + order_.min_cell.y(), c});
-    end_of_row = z * order_.layer + (y + 1) * order_.row;
+BoxQuery::BoxQuery(const PointCloud& cloud, float cell_m) : cell_m_(cell_m) {
+  constexpr int kMostGap = 16;  // cells without points within a row: bounds the table, whatever the cloud
+  const CellOrder order = order_by_cell(cloud, cell_m);
+  points_ = PaddedPoints(cloud, order.points);
+  const std::size_t num_cells = order.num_cells();
+  std::int64_t last_key = std::numeric_limits<std::int64_t>::min() / 2;
+  for (std::size_t c = 0; c < num_cells; ++c) {
+    const std::int64_t key = order.keys[c];
+    const Eigen::Vector3i cell = order.cell_of(key);
+    const bool goes_on =
+        key - last_key <= kMostGap && cell.y() == rows_.back().y && cell.z() == rows_.back().z;
+    if (!goes_on) {
+      if (!rows_.empty()) row_starts_.push_back(order.starts[c]);
+      rows_.push_back({cell.z(), cell.y(), cell.x(), 0, row_starts_.size()});
+    }
+    Row& row = rows_.back();
+    for (; row.num_cells <= cell.x() - row.x; ++row.num_cells) row_starts_.push_back(order.starts[c]);
+    last_key = key;
   }
-  rows_.push_back({kBeyond, 0, order_.num_cells()});
+  row_starts_.push_back(order.starts[num_cells]);
+  rows_.push_back({kBeyond, 0, 0, 0, 0});
 }
 
-PointRange BoxQuery::points_of_row(const Box& box, std::size_t r) const {
-  const Row& row = rows_[r];
-  const float cell = order_.cell_m;
-  const auto [x0, x1] =
-      box.x_of_row((static_cast<float>(row.y) + 0.5f) * cell, (static_cast<float>(row.z) + 0.5f) * cell);
+PointRange BoxQuery::points_of_row(const Box& box, const Row& row) const {
+  const auto [x0, x1] = box.x_of_row((static_cast<float>(row.y) + 0.5f) * cell_m_,
+                                     (static_cast<float>(row.z) + 0.5f) * cell_m_);
   if (x0 > x1) return {};
-  const int last_x = order_.min_cell.x() + static_cast<int>(order_.row) - 1;
-  const int from_x = std::max(order_.min_cell.x(), cell_index(x0, 1 / cell));
-  const int to_x = std::min(last_x, cell_index(x1, 1 / cell));
-  if (from_x > to_x) return {};
-  const auto key = [this](std::size_t c) { return order_.keys.begin() + static_cast<std::ptrdiff_t>(c); };
-  const auto end_of_row = key(rows_[r + 1].first_cell);
-  const auto begin = std::lower_bound(key(row.first_cell), end_of_row, order_.key({from_x, row.y, row.z}));
-  const std::int64_t last = order_.key({to_x, row.y, row.z});
-  auto end = begin;
-  while (end != end_of_row && *end <= last) ++end;
-  return points_.range(order_.starts[static_cast<std::size_t>(begin - order_.keys.begin())],
-                       order_.starts[static_cast<std::size_t>(end - order_.keys.begin())]);
+  const int from = std::max(0, cell_index(x0, 1 / cell_m_) - row.x);
+  const int to = std::min(row.num_cells, cell_index(x1, 1 / cell_m_) + 1 - row.x);
+  if (from >= to) return {};
+  const std::uint32_t* starts = row_starts_.data() + row.start;
+  return points_.range(starts[from], starts[to]);
 }
 
 template <class Visit>
 void BoxQuery::for_each_range(const Box& box, Visit visit) const {
   if (rows_.empty()) return;
-  const float cell = order_.cell_m;
-  const Eigen::Vector3f from = (box.center - box.reach) / cell, to = (box.center + box.reach) / cell;
+  const Eigen::Vector3f from = (box.center - box.reach) / cell_m_, to = (box.center + box.reach) / cell_m_;
   const Eigen::Vector3i lo = from.array().floor().cast<int>(), hi = to.array().floor().cast<int>();
   const auto first_from = [this](auto row, int z, int y) {
-    return std::lower_bound(row, rows_.end(), Row{z, y, 0},
+    return std::lower_bound(row, rows_.end(), Row{z, y, 0, 0, 0},
                             [](const Row& a, const Row& b) { return a.z != b.z ? a.z < b.z : a.y < b.y; });
   };
   auto row = first_from(rows_.begin(), lo.z(), lo.y());
@@ -140,7 +138,7 @@ void BoxQuery::for_each_range(const Box& box, Visit visit) const {
       row = first_from(row, row->y > hi.y() ? row->z + 1 : row->z, lo.y());
       continue;
     }
-    const PointRange points = points_of_row(box, static_cast<std::size_t>(row - rows_.begin()));
+    const PointRange points = points_of_row(box, *row);
     if (points.size > 0 && !visit(points)) return;
     ++row;
   }
@@ -148,7 +146,7 @@ void BoxQuery::for_each_range(const Box& box, Visit visit) const {
 
 void BoxQuery::find(const Eigen::Vector3f& origin, const Eigen::Matrix3f& rotation,
                     const Eigen::Vector3f& min, const Eigen::Vector3f& max, LocalPoints& out) const {
-  const Box box(origin, rotation, min, max, 0.5f * order_.cell_m);
+  const Box box(origin, rotation, min, max, 0.5f * cell_m_);
   out.clear();
   for_each_range(box, [&](const PointRange& points) {
     out.add_inside(box.test, points);
@@ -158,7 +156,7 @@ void BoxQuery::find(const Eigen::Vector3f& origin, const Eigen::Matrix3f& rotati
 
 bool BoxQuery::has_more(const Eigen::Vector3f& origin, const Eigen::Matrix3f& rotation,
                         const Eigen::Vector3f& min, const Eigen::Vector3f& max, int limit) const {
-  const Box box(origin, rotation, min, max, 0.5f * order_.cell_m);
+  const Box box(origin, rotation, min, max, 0.5f * cell_m_);
   const PointKernels& kernels = point_kernels();
   const auto most = static_cast<std::size_t>(limit);
   std::size_t n = 0;

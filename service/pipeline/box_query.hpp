@@ -56,19 +56,21 @@ class BoxQuery {
 
  private:
   struct Box;
-  /// Cells with the same y and z, which follow one another.
+  /// Cells with the same y and z that follow one another along x with small gaps.
   struct Row {
-    int z, y;
-    std::size_t first_cell;
+    int z, y, x, num_cells;  ///< x of the first
+    std::size_t start;       ///< of its points by x, in row_starts_
   };
   /// The part of a row that may lie in the box.
-  [[nodiscard]] PointRange points_of_row(const Box& box, std::size_t row) const;
+  [[nodiscard]] PointRange points_of_row(const Box& box, const Row& row) const;
   /// Calls visit(points) with ranges that hold all points of the box; it returns false to stop.
   template <class Visit>
   void for_each_range(const Box& box, Visit visit) const;
 
-  CellOrder order_;
-  std::vector<Row> rows_;  // by z, then y; one more at the end
+  float cell_m_ = 1;
+  std::vector<Row> rows_;  // by z, then y, then x; one more at the end
+  std::vector<std::uint32_t>
+      row_starts_;  // for each x of each row, and for the one after: position in points_
   PaddedPoints points_;
 };
 

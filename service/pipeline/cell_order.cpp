@@ -4,7 +4,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include <array>
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <utility>
@@ -18,37 +18,46 @@ struct Entry {
   std::uint32_t point;
 };
 
-constexpr int kDigitBits = 11;
-constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
+/// How keys are taken apart for a radix sort.
+struct Digits {
+  int num_places, bits;
 
-template <class Key>
-std::size_t digit(Key key, int place) {
-  return static_cast<std::size_t>(key >> (place * kDigitBits)) & (kDigits - 1);
-}
+  explicit Digits(int num_bits) {
+    constexpr int kMostBits = 13;  // counts of all values stay in the first-level cache
+    num_places = std::max(1, (num_bits + kMostBits - 1) / kMostBits);
+    bits = (num_bits + num_places - 1) / num_places;
+  }
+  [[nodiscard]] std::size_t num_values() const { return std::size_t{1} << bits; }
+  template <class Key>
+  [[nodiscard]] std::size_t at(Key key, int place) const {
+    return static_cast<std::size_t>(key >> (place * bits)) & (num_values() - 1);
+  }
+};
 
 /// The points by key; stable. Radix sort, least significant digit first, over the lowest num_bits.
 template <class Key>
-std::vector<Entry<Key>> sorted_by_key(const std::vector<Key>& keys, int num_bits) {
-  const int num_places = std::max(1, (num_bits + kDigitBits - 1) / kDigitBits);
-  std::vector<std::array<std::uint32_t, kDigits>> next(static_cast<std::size_t>(num_places));
-  for (int place = 0; place < num_places; ++place) {
-    auto& of_place = next[static_cast<std::size_t>(place)];
-    for (const Key key : keys) ++of_place[digit(key, place)];
+RawVector<Entry<Key>> sorted_by_key(const RawVector<Key>& keys, int num_bits) {
+  const Digits digits(num_bits);
+  RawVector<Entry<Key>> entries(keys.size()), sorted(digits.num_places > 1 ? keys.size() : 0);
+  std::vector<std::uint32_t> next(digits.num_values());
+  const auto count = [&](int place) {
+    std::fill(next.begin(), next.end(), 0u);
+    for (const Key key : keys) ++next[digits.at(key, place)];
     std::uint32_t sum = 0;
-    for (std::uint32_t& n : of_place) sum += std::exchange(n, sum);
-  }
-  std::vector<Entry<Key>> entries(keys.size()), sorted(num_places > 1 ? keys.size() : 0);
-  for (std::uint32_t i = 0; i < keys.size(); ++i) entries[next[0][digit(keys[i], 0)]++] = {keys[i], i};
-  for (int place = 1; place < num_places; ++place) {
-    auto& of_place = next[static_cast<std::size_t>(place)];
-    for (const Entry<Key>& e : entries) sorted[of_place[digit(e.key, place)]++] = e;
+    for (std::uint32_t& n : next) sum += std::exchange(n, sum);
+  };
+  count(0);
+  for (std::uint32_t i = 0; i < keys.size(); ++i) entries[next[digits.at(keys[i], 0)]++] = {keys[i], i};
+  for (int place = 1; place < digits.num_places; ++place) {
+    count(place);
+    for (const Entry<Key>& e : entries) sorted[next[digits.at(e.key, place)]++] = e;
     entries.swap(sorted);
   }
   return entries;
 }
 
 template <class Key>
-void set_cells(const std::vector<Entry<Key>>& entries, CellOrder& order) {
+void set_cells(const RawVector<Entry<Key>>& entries, CellOrder& order) {
   const std::size_t n = entries.size();
   std::size_t num_cells = 1;
   for (std::size_t i = 1; i < n; ++i) num_cells += entries[i].key != entries[i - 1].key ? 1 : 0;
@@ -77,8 +86,8 @@ int cell_range(const std::vector<float>& v, float per_cell, int& min) {
 
 /// Number of each point's cell.
 template <class Key>
-std::vector<Key> number_cells(const PointCloud& cloud, float per_cell, const CellOrder& order) {
-  std::vector<Key> keys(cloud.size());
+RawVector<Key> number_cells(const PointCloud& cloud, float per_cell, const CellOrder& order) {
+  RawVector<Key> keys(cloud.size());
   const CellGrid grid{per_cell,
                       {order.min_cell.x(), order.min_cell.y(), order.min_cell.z()},
                       static_cast<std::uint32_t>(order.row),
@@ -138,6 +147,8 @@ PaddedPoints::PaddedPoints(const PointCloud& cloud, std::span<const std::uint32_
       index_[k] = i;
     }
   });
+  for (RawVector<float>* v : {&x_, &y_, &z_}) std::fill_n(v->end() - kPointPadding, kPointPadding, 0.0f);
+  std::fill_n(index_.end() - kPointPadding, kPointPadding, 0u);
 }
 
 }  // namespace graspd

@@ -8,6 +8,7 @@
 
 #include "service/pipeline/point_cloud.hpp"
 #include "service/pipeline/point_kernels.hpp"
+#include "service/pipeline/raw_vector.hpp"
 
 namespace graspd {
 
@@ -17,16 +18,20 @@ namespace graspd {
 struct CellOrder {
   float cell_m = 1;
   Eigen::Vector3i min_cell =
-      Eigen::Vector3i::Zero();        ///< one less than the smallest occupied cell on each axis
-  std::int64_t row = 1;               ///< from one key to the same x in the next row along y
-  std::int64_t layer = 1;             ///< and in the next layer along z
-  std::vector<std::uint32_t> points;  ///< indices into the cloud, sorted by key; stable
-  std::vector<std::int64_t> keys;     ///< of the occupied cells, ascending
-  std::vector<std::uint32_t> starts;  ///< keys.size() + 1 positions in points where a cell begins
+      Eigen::Vector3i::Zero();      ///< one less than the smallest occupied cell on each axis
+  std::int64_t row = 1;             ///< from one key to the same x in the next row along y
+  std::int64_t layer = 1;           ///< and in the next layer along z
+  RawVector<std::uint32_t> points;  ///< indices into the cloud, sorted by key; stable
+  RawVector<std::int64_t> keys;     ///< of the occupied cells, ascending
+  RawVector<std::uint32_t> starts;  ///< keys.size() + 1 positions in points where a cell begins
 
   [[nodiscard]] std::size_t num_cells() const { return keys.size(); }
   [[nodiscard]] std::int64_t key(const Eigen::Vector3i& cell) const {
     return (cell.x() - min_cell.x()) + row * (cell.y() - min_cell.y()) + layer * (cell.z() - min_cell.z());
+  }
+  [[nodiscard]] Eigen::Vector3i cell_of(std::int64_t key) const {
+    const std::int64_t z = key / layer, y = key % layer / row, x = key % row;
+    return min_cell + Eigen::Vector3i(static_cast<int>(x), static_cast<int>(y), static_cast<int>(z));
   }
   [[nodiscard]] std::span<const std::uint32_t> cell(std::size_t c) const {
     return {points.data() + starts[c], points.data() + starts[c + 1]};
@@ -51,8 +56,8 @@ class PaddedPoints {
   [[nodiscard]] PointRange all() const { return range(0, size()); }
 
  private:
-  std::vector<float> x_, y_, z_;
-  std::vector<std::uint32_t> index_;
+  RawVector<float> x_, y_, z_;
+  RawVector<std::uint32_t> index_;
 };
 
 }  // namespace graspd

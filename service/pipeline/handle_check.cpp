@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <span>
 
 #include "service/pipeline/contact.hpp"
+#include "service/pipeline/nth_value.hpp"
 #include "service/pipeline/patch_fit.hpp"
 
 namespace graspd {
@@ -49,7 +52,13 @@ class Check {
   [[nodiscard]] Failure check_walls();
   [[nodiscard]] Failure check_contacts();
   [[nodiscard]] Failure check_unseen();
-  void collect_between();
+  /// Writes to buffers_.selected which points are at these distances from the middle and depths; their
+  /// number.
+  [[nodiscard]] std::size_t select(float min_distance, float max_distance, float min_depth, float max_depth);
+  /// Of n selected points those of the object are between the jaws.
+  void keep_own(std::size_t n);
+  /// Where what is between the jaws ends.
+  void find_ends();
   [[nodiscard]] float hidden_share(float f0, float f1, float z0, float z1, bool by_others) const;
   [[nodiscard]] float finger_hidden_share(int side, bool by_others) const;
   [[nodiscard]] float area_per_point() const;
@@ -71,24 +80,35 @@ class Check {
   float side_slope_ = 0;   // of the object's sides against the major axis, df / da, mean of both
 };
 
+std::size_t Check::select(float min_distance, float max_distance, float min_depth, float max_depth) {
+  return point_kernels().select_band({0, 0, min_distance, max_distance, min_depth, max_depth},
+                                     {local_.f.data(), local_.z.data(), local_.index.data(), local_.size()},
+                                     buffers_.selected.data());
+}
+
+void Check::keep_own(std::size_t n) {
+  between_.resize(n);
+  std::size_t own = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    between_[own] = buffers_.selected[i];
+    own += static_cast<std::size_t>(buffers_.own[buffers_.selected[i]]);
+  }
+  between_.resize(own);
+}
+
 Failure Check::check_volumes() {
   const Gripper& g = gripper_;
   const float half = half_opening(), half_hand = 0.5f * g.aperture_m + g.finger_width_m,
               half_e = 0.5f * g.finger_thickness_m;
   const float palm_top = g.grasp_depth_m - g.finger_length_m, hand_top = palm_top - config_.palm_depth_m;
-  int own = 0, other = 0, fingers = 0;
-  for (std::size_t k = 0; k < local_.size(); ++k) {
-    const float f = std::abs(local_.f[k]), z = local_.z[k];
-    if (z > g.grasp_depth_m || z < palm_top) continue;
-    if (f <= half)
-      (is_own(k) ? own : other) += 1;
-    else
-      fingers += f <= half + g.finger_width_m ? 1 : 0;
-  }
+  const std::size_t all = select(0, half, palm_top, g.grasp_depth_m);
+  keep_own(all);
+  const auto own = static_cast<int>(between_.size());
   handle_.num_points = own;
   if (own < kMinOwnPoints) return Failure::kTooFewPoints;
-  if (static_cast<float>(own) < config_.min_own_share * static_cast<float>(own + other))
-    return Failure::kNoGap;
+  if (static_cast<float>(own) < config_.min_own_share * static_cast<float>(all)) return Failure::kNoGap;
+  const float beside = std::nextafter(half, 1.0f);
+  const auto fingers = static_cast<int>(select(beside, half + g.finger_width_m, palm_top, g.grasp_depth_m));
   if (fingers > scene_.tolerance) return Failure::kFingers;
   const auto blocked = [&](float half_width, float z0, float z1) {
     return scene_.query.has_more(handle_.position, handle_.rotation, {-half_e, -half_width, z0},
@@ -118,32 +138,17 @@ Failure Check::check_support() const {
   return Failure::kNone;
 }
 
-void Check::collect_between() {
-  const float half = half_opening(), deepest = gripper_.grasp_depth_m,
-              highest = gripper_.grasp_depth_m - gripper_.finger_length_m;
-  std::size_t n = 0;
-  between_.resize(local_.size());
-  for (std::size_t k = 0; k < local_.size(); ++k) {
-    const float f = local_.f[k], z = local_.z[k];
-    between_[n] = static_cast<std::uint32_t>(k);
-    n += static_cast<std::size_t>(buffers_.own[k] & int{std::abs(f) <= half} & int{z <= deepest} &
-                                  int{z >= highest});
-  }
-  between_.resize(n);
-  const auto nth = [n](std::vector<float>& v, std::size_t k) {
-    const auto at = v.begin() + static_cast<std::ptrdiff_t>(k);
-    std::nth_element(v.begin(), at, v.begin() + static_cast<std::ptrdiff_t>(n));
-    return *at;
-  };
-  std::vector<float>&f = buffers_.widths, &z = buffers_.depths;
+void Check::find_ends() {
+  const std::size_t n = between_.size();
   for (std::size_t i = 0; i < n; ++i) {
-    f[i] = local_.f[between_[i]];
-    z[i] = local_.z[between_[i]];
+    buffers_.widths[i] = local_.f[between_[i]];
+    buffers_.depths[i] = local_.z[between_[i]];
   }
+  const std::span<float> f(buffers_.widths.data(), n), z(buffers_.depths.data(), n);
   const std::size_t skip = std::min(n / 4, std::max<std::size_t>(1, n / 200));
-  end_[0] = nth(f, skip);
-  end_[1] = nth(f, n - 1 - skip);
-  top_ = nth(z, skip);
+  end_[0] = nth_value(f, skip);
+  end_[1] = nth_value(f, skip, std::greater<>());
+  top_ = nth_value(z, skip);
 }
 
 Failure Check::check_silhouettes() {
@@ -184,10 +189,11 @@ Failure Check::check_walls() {
   constexpr float kAbove = 0.010f, kBelow = 0.005f, kBeside = 0.03f;
   const float half = half_opening(), l = gripper_.grasp_depth_m;
   float near_low = 1, near_high = -1, far_low = 1, far_high = -1;
-  for (std::size_t k = 0; k < local_.size(); ++k) {
+  const std::size_t n = select(0, half + kBeside, l - gripper_.finger_length_m, l + kBelow);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::uint32_t k = buffers_.selected[i];
     if (!is_own(k)) continue;
     const float f = local_.f[k], z = local_.z[k];
-    if (std::abs(f) > half + kBeside || z < l - gripper_.finger_length_m || z > l + kBelow) continue;
     far_low = std::min(far_low, f);
     far_high = std::max(far_high, f);
     if (z > l - kAbove) continue;
@@ -320,11 +326,11 @@ CheckResult Check::run(const PatchFit& fit) {
   CheckResult result;
   const auto passes = [&result](Failure failure) { return (result.failure = failure) == Failure::kNone; };
   if (!passes(check_volumes()) || !passes(check_support())) return result;
-  collect_between();
+  find_ends();
   if (!passes(check_silhouettes()) || !passes(check_walls()) || !passes(check_contacts())) return result;
   // The contacts may have moved and widened the opening into space that nothing was seen in: look again.
   if (!passes(check_volumes()) || !passes(check_support())) return result;
-  collect_between();
+  find_ends();
   if (!passes(check_unseen())) return result;
   result.handle = handle_;
   result.margins = margins_;

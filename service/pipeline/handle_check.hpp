@@ -96,12 +96,13 @@ struct CheckResult {
 
 /// Working memory of a check, kept from call to call.
 struct CheckBuffers {
-  LocalPoints local;               ///< around the candidate, relative to its fitted position
-  std::vector<std::int32_t> own;   ///< 1 for each of them that is the candidate's object's
-  std::vector<std::int32_t> bins;  ///< and its bin of the profile; negative: none
+  LocalPoints local;                ///< around the candidate, relative to its fitted position
+  std::vector<std::int32_t> own;    ///< 1 for each of them that is the candidate's object's
+  std::vector<std::int32_t> marks;  ///< and what it leaves in the profile (BandTags)
   std::vector<std::uint32_t> between;
-  std::vector<int> own_profile, all_profile;
-  std::vector<float> depths, widths;  ///< room for one value a point and the kernels' padding
+  std::vector<std::uint32_t> selected;  ///< room for one of each of them and the kernels' padding
+  std::vector<std::uint8_t> marked;     ///< 1 for each mark of the profile that a point left
+  std::vector<float> depths, widths;    ///< room for one value a point and the kernels' padding
   std::vector<Eigen::Vector2f> profile;
 };
 

@@ -12,6 +12,31 @@
 namespace graspd {
 namespace {
 
+/// Points of several ranges one after the other.
+class GatheredPoints {
+ public:
+  void clear() { size_ = 0; }
+  void add(const PointRange& range) {
+    if (const std::size_t most = size_ + range.size + kPointPadding; x_.size() < most) {
+      const std::size_t room = std::max(most, 2 * x_.size());
+      for (RawVector<float>* v : {&x_, &y_, &z_}) v->resize(room);
+      index_.resize(room);
+    }
+    const std::size_t n = range.size + kPointPadding;  // the padding of the last range is the padding of all
+    std::copy_n(range.x, n, x_.data() + size_);
+    std::copy_n(range.y, n, y_.data() + size_);
+    std::copy_n(range.z, n, z_.data() + size_);
+    std::copy_n(range.index, n, index_.data() + size_);
+    size_ += range.size;
+  }
+  [[nodiscard]] PointRange all() const { return {x_.data(), y_.data(), z_.data(), index_.data(), size_}; }
+
+ private:
+  RawVector<float> x_, y_, z_;
+  RawVector<std::uint32_t> index_;
+  std::size_t size_ = 0;
+};
+
 /// The nine rows of three cells around a cell. Keys ascend from cell to cell, so that each row's position
 /// only moves on.
 class RowCursor {
@@ -28,31 +53,27 @@ class RowCursor {
     }
   }
 
-  /// Looks up the points around a cell; cells must ascend from call to call. Returns how many they are.
-  std::size_t move_to(std::size_t cell) {
-    rows_.clear();
-    std::size_t num_points = 0;
+  /// Gathers the points around a cell; cells must ascend from call to call.
+  void move_to(std::size_t cell) {
+    around_.clear();
     for (std::size_t i = 0; i < offsets_.size(); ++i) {
       const std::int64_t center = order_.keys[cell] + offsets_[i];
       std::size_t& p = positions_[i];
       while (p < order_.num_cells() && order_.keys[p] < center - 1) ++p;
       std::size_t end = p;
       while (end < order_.num_cells() && order_.keys[end] <= center + 1) ++end;
-      if (p == end) continue;
-      rows_.push_back(points_.range(order_.starts[p], order_.starts[end]));
-      num_points += rows_.back().size;
+      if (p != end) around_.add(points_.range(order_.starts[p], order_.starts[end]));
     }
-    return num_points;
   }
 
-  [[nodiscard]] const std::vector<PointRange>& rows() const { return rows_; }
+  [[nodiscard]] PointRange around() const { return around_.all(); }
 
  private:
   const CellOrder& order_;
   const PaddedPoints& points_;
   std::array<std::int64_t, 9> offsets_{};
   std::array<std::size_t, 9> positions_{};
-  std::vector<PointRange> rows_;
+  GatheredPoints around_;
 };
 
 /// The points of a cell whose neighbourhoods are wanted.
@@ -80,23 +101,25 @@ Neighborhoods find_neighborhoods(const PointCloud& cloud, const NeighborhoodsCon
   tbb::parallel_for(std::size_t{0}, num_chunks, [&](std::size_t chunk) {
     const std::size_t begin = chunk * kCellsPerChunk;
     const std::size_t end = std::min(begin + kCellsPerChunk, order.num_cells());
-    RowCursor around(order, points, begin);
-    std::vector<std::uint32_t>& list = result.storage_[chunk];
+    RowCursor cursor(order, points, begin);
+    RawVector<std::uint32_t>& list = result.storage_[chunk];
     std::vector<std::uint32_t> wanted, done;
     std::vector<std::size_t> ends{0};
     for (std::size_t c = begin; c < end; ++c) {
       wanted_points(order.cell(c), skip, wanted);
       if (wanted.empty()) continue;
-      const std::size_t most = wanted.size() * around.move_to(c) + kPointPadding;
+      cursor.move_to(c);
+      const PointRange around = cursor.around();
+      const std::size_t most = wanted.size() * around.size + kPointPadding;
       if (list.size() < ends.back() + most) list.resize(std::max(2 * list.size(), ends.back() + most));
       for (const std::uint32_t i : wanted) {
-        std::size_t n = ends.back();
-        for (const PointRange& row : around.rows())
-          n += kernels.keep_near({cloud.x[i], cloud.y[i], cloud.z[i]}, radius_squared, row, list.data() + n);
+        const std::size_t from = ends.back();
         done.push_back(i);
-        ends.push_back(n);
+        ends.push_back(from + kernels.keep_near({cloud.x[i], cloud.y[i], cloud.z[i]}, radius_squared, around,
+                                                list.data() + from));
       }
     }
+    if (!list.empty()) std::fill_n(list.data() + ends.back(), kPointPadding, 0u);
     // Only now, because the list moves while it grows.
     for (std::size_t k = 0; k < done.size(); ++k)
       result.lists_[done[k]] = {list.data() + ends[k], list.data() + ends[k + 1]};

@@ -9,6 +9,7 @@
 
 #include "service/pipeline/config_fields.hpp"
 #include "service/pipeline/point_cloud.hpp"
+#include "service/pipeline/raw_vector.hpp"
 
 namespace graspd {
 
@@ -32,7 +33,7 @@ class Neighborhoods {
   friend Neighborhoods find_neighborhoods(const PointCloud&, const NeighborhoodsConfig&,
                                           const std::vector<std::uint8_t>&);
   std::vector<std::span<const std::uint32_t>> lists_;
-  std::vector<std::vector<std::uint32_t>> storage_;
+  std::vector<RawVector<std::uint32_t>> storage_;
 };
 
 /// All points must be finite. The order within a list is fixed by the points' positions. skip: 1 for each

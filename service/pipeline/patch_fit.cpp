@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
+
+#include "service/pipeline/nth_value.hpp"
 
 namespace graspd {
 namespace {
@@ -13,35 +16,38 @@ constexpr float kBin = 0.001f;  // of the profile along the closing axis [m]
 constexpr float kTopWindow =
     0.012f;  // around the candidate's position, where the top is looked for first [m]
 
-/// Bin of the profile that begins at first_m; may be outside it.
-int bin_of(float f, float first_m) {
-  return cell_index((f - first_m) / kBin, 1);
-}
-
-/// Occupancy along the closing axis.
-struct Profile {
-  float first_m;  ///< of bin 0
-  std::vector<int>&own, &all;
-
-  Profile(float half_length, CheckBuffers& buffers)
-      : first_m(-half_length), own(buffers.own_profile), all(buffers.all_profile) {
-    const auto bins = static_cast<std::size_t>(num_bins(half_length));
-    own.assign(bins, 0);
-    all.assign(bins, 0);
+/// Who is where along the closing axis.
+class Profile {
+ public:
+  /// tags: whose bins these are. n selected points leave their marks.
+  Profile(const BandTags& tags, std::size_t n, CheckBuffers& buffers)
+      : first_m_(tags.first), size_(tags.num_bins), marked_(buffers.marked) {
+    marked_.assign(static_cast<std::size_t>(tags.no_mark()) + 1, 0);
+    for (std::size_t i = 0; i < n; ++i)
+      marked_[static_cast<std::size_t>(buffers.marks[buffers.selected[i]])] = 1;
   }
-  [[nodiscard]] static int num_bins(float half_length) {
-    return static_cast<int>(2 * half_length / kBin) + 1;
-  }
-  [[nodiscard]] float at(int bin) const { return first_m + kBin * static_cast<float>(bin); }
-  [[nodiscard]] int size() const { return static_cast<int>(all.size()); }
+  [[nodiscard]] int size() const { return size_; }
+  [[nodiscard]] bool has_bin(int bin) const { return bin >= 0 && bin < size_; }
+  /// Of a bin that there is.
+  [[nodiscard]] bool has_other(int bin) const { return marked_[static_cast<std::size_t>(2 * bin)] != 0; }
+  [[nodiscard]] bool has_own(int bin) const { return marked_[static_cast<std::size_t>(2 * bin + 1)] != 0; }
+  [[nodiscard]] bool has_any(int bin) const { return has_other(bin) || has_own(bin); }
+  /// Where a bin begins [m].
+  [[nodiscard]] float at(int bin) const { return first_m_ + kBin * static_cast<float>(bin); }
+  [[nodiscard]] int bin_of(float f) const { return cell_index((f - first_m_) / kBin, 1); }
+
+ private:
+  float first_m_;
+  int size_;
+  std::vector<std::uint8_t>& marked_;
 };
 
 /// Walks outwards from a bin over occupied bins; stops before the first gap of min_gap bins. Returns the last
 /// occupied bin, and in next the first occupied one beyond the gap (or the end of the profile).
 int walk(const Profile& profile, int from, int step, int min_gap, int& next) {
   int last = from;
-  for (int b = from; b >= 0 && b < profile.size(); b += step) {
-    if (profile.all[static_cast<std::size_t>(b)] == 0) continue;
+  for (int b = from; profile.has_bin(b); b += step) {
+    if (!profile.has_any(b)) continue;
     if (std::abs(b - last) > min_gap) {
       next = b;
       return last;
@@ -64,16 +70,13 @@ bool find_top(CheckBuffers& buffers, float f_min, float f_max, float& top_m) {
       point_kernels().keep_depths(band(buffers), buffers.own.data(), f_min, f_max, z.data());
   if (n < 4) return false;
   const std::size_t skip = std::min(n / 4, std::max<std::size_t>(1, n / 50));
-  const auto begin = z.begin(), nth = begin + static_cast<std::ptrdiff_t>(skip);
-  std::nth_element(begin, nth, begin + static_cast<std::ptrdiff_t>(n));
-  top_m = *nth;
+  top_m = nth_value({z.data(), n}, skip);
   return true;
 }
 
 /// How much less deep the fingertips must go so that they stay above the support and clear of what is below.
 float raise_for_obstacles(const SceneView& scene, const Gripper& g, const HandleCheckConfig& config,
                           const Candidate& candidate, CheckBuffers& buffers, const PatchFit& fit) {
-  const LocalPoints& local = buffers.local;
   const float half = 0.5f * std::min(g.aperture_m, fit.width_m + 2 * config.clearance_m);
   float raise = 0;
   if (scene.support) {
@@ -87,20 +90,16 @@ float raise_for_obstacles(const SceneView& scene, const Gripper& g, const Handle
           raise = std::max(raise, (config.support_clearance_m + 0.002f - height) / steepness);
         }
   }
-  std::vector<float>& hits =
-      buffers.depths;  // above the fingertips' depth, where something is in a finger's way
-  std::size_t n = 0;
-  for (std::size_t k = 0; k < local.size(); ++k) {
-    const float f = std::abs(local.f[k] - fit.center_m), z = local.z[k] - fit.top_m;
-    hits[n] = g.grasp_depth_m - z;
-    n += static_cast<std::size_t>(int{f > half} & int{f <= half + g.finger_width_m} &
-                                  int{z <= g.grasp_depth_m} & int{z >= g.grasp_depth_m - g.finger_length_m});
-  }
+  // Depths where something is in a finger's way.
+  const float beside = std::nextafter(half, 1.0f);
+  const std::size_t n = point_kernels().select_band({fit.center_m, fit.top_m, beside, half + g.finger_width_m,
+                                                     g.grasp_depth_m - g.finger_length_m, g.grasp_depth_m},
+                                                    band(buffers), buffers.selected.data());
   const auto allowed = static_cast<std::size_t>(scene.tolerance / 2);
   if (n > allowed) {
-    const auto nth = hits.begin() + static_cast<std::ptrdiff_t>(allowed);
-    std::nth_element(hits.begin(), nth, hits.begin() + static_cast<std::ptrdiff_t>(n), std::greater<>());
-    raise = std::max(raise, *nth + 0.001f);
+    for (std::size_t i = 0; i < n; ++i) buffers.depths[i] = buffers.local.z[buffers.selected[i]] - fit.top_m;
+    const float highest = nth_value({buffers.depths.data(), n}, allowed);
+    raise = std::max(raise, g.grasp_depth_m - highest + 0.001f);
   }
   return raise;
 }
@@ -112,32 +111,25 @@ float profile_reach(const SceneView& scene, const Gripper& g) {
 }
 
 /// The patch around position f0: between the nearest gaps on both sides, at depths down to l below top.
-Failure find_patch(const SceneView& scene, const Gripper& g, CheckBuffers& buffers, float f0, PatchFit& fit) {
-  const LocalPoints& local = buffers.local;
-  Profile profile(profile_reach(scene, g), buffers);
-  for (std::size_t k = 0; k < local.size(); ++k) {
-    const float z = local.z[k] - fit.top_m;
-    const int b = buffers.bins[k];
-    if (b < 0 || z > g.grasp_depth_m || z < g.grasp_depth_m - g.finger_length_m) continue;
-    ++profile.all[static_cast<std::size_t>(b)];
-    profile.own[static_cast<std::size_t>(b)] += buffers.own[k];
-  }
-  int start = bin_of(f0, profile.first_m);
+Failure find_patch(const BandTags& tags, const Gripper& g, CheckBuffers& buffers, float f0, PatchFit& fit) {
+  constexpr float kAnywhere = std::numeric_limits<float>::infinity();
+  const std::size_t n = point_kernels().select_band(
+      {0, fit.top_m, 0, kAnywhere, g.grasp_depth_m - g.finger_length_m, g.grasp_depth_m}, band(buffers),
+      buffers.selected.data());
+  const Profile profile(tags, n, buffers);
+  const auto is_own = [&profile](int b) { return profile.has_bin(b) && profile.has_own(b); };
+  int start = profile.bin_of(f0);
   for (int d = 0; d < static_cast<int>(0.5f * g.aperture_m / kBin); ++d) {
-    const auto own_at = [&](int b) {
-      return b >= 0 && b < profile.size() && profile.own[static_cast<std::size_t>(b)] > 0;
-    };
-    if (own_at(start + d)) {
+    if (is_own(start + d)) {
       start += d;
       break;
     }
-    if (own_at(start - d)) {
+    if (is_own(start - d)) {
       start -= d;
       break;
     }
   }
-  if (start < 0 || start >= profile.size() || profile.own[static_cast<std::size_t>(start)] == 0)
-    return Failure::kTooFewPoints;
+  if (!is_own(start)) return Failure::kTooFewPoints;
   const int min_gap = static_cast<int>(g.min_gap_m / kBin);
   int below = 0, beyond = 0;
   const int low = walk(profile, start, -1, min_gap, below), high = walk(profile, start, 1, min_gap, beyond);
@@ -147,15 +139,14 @@ Failure find_patch(const SceneView& scene, const Gripper& g, CheckBuffers& buffe
                std::min(g.aperture_m, kBin * static_cast<float>(beyond - high - 1))};
   if (fit.width_m <= g.aperture_m + 0.004f) return Failure::kNone;
   int other = 0;
-  for (int b = low; b <= high; ++b)
-    other += profile.all[static_cast<std::size_t>(b)] > profile.own[static_cast<std::size_t>(b)] ? 1 : 0;
+  for (int b = low; b <= high; ++b) other += profile.has_other(b) ? 1 : 0;
   return other > 3 ? Failure::kNoGap : Failure::kTooWide;
 }
 
 /// The top of the whole patch may be higher than where the search began; then the depths below it are others,
 /// and the patch too. gather(z): the points around depth z.
 template <class Gather>
-Failure settle_top(const SceneView& scene, const Gripper& g, CheckBuffers& buffers, const Gather& gather,
+Failure settle_top(const BandTags& tags, const Gripper& g, CheckBuffers& buffers, const Gather& gather,
                    PatchFit& fit) {
   constexpr int kMostRounds = 4;
   float gathered_m = 0;
@@ -167,7 +158,7 @@ Failure settle_top(const SceneView& scene, const Gripper& g, CheckBuffers& buffe
     const float low = fit.center_m - 0.5f * fit.width_m, high = low + fit.width_m;
     if (!find_top(buffers, low, high, fit.top_m)) return Failure::kTooFewPoints;
     if (!is_far_up && std::abs(fit.top_m - before) < kBin) break;
-    if (const Failure failure = find_patch(scene, g, buffers, fit.center_m, fit); failure != Failure::kNone)
+    if (const Failure failure = find_patch(tags, g, buffers, fit.center_m, fit); failure != Failure::kNone)
       return failure;
   }
   return Failure::kNone;
@@ -180,20 +171,27 @@ void shift(LocalPoints& local, float f, float z) {
   }
 }
 
+BandTags band_tags(const SceneView& scene, const Candidate& candidate, float reach_m) {
+  // Where the support is in the way, the fingers go less deep: it does not widen the patch.
+  return {scene.object.data(),
+          candidate.object,
+          kSupportObject,
+          -reach_m,
+          kBin,
+          static_cast<int>(2 * reach_m / kBin) + 1};
+}
+
 /// Whose the points are, and where in the profile.
-void describe_points(const SceneView& scene, const Candidate& candidate, float reach_m,
-                     CheckBuffers& buffers) {
+void describe_points(const BandTags& tags, CheckBuffers& buffers) {
   const LocalPoints& local = buffers.local;
   if (const std::size_t room = local.size() + kPointPadding; buffers.own.size() < room) {
     buffers.own.resize(2 * room);
-    buffers.bins.resize(2 * room);
+    buffers.marks.resize(2 * room);
     buffers.depths.resize(2 * room);
     buffers.widths.resize(2 * room);
+    buffers.selected.resize(2 * room);
   }
-  // Where the support is in the way, the fingers go less deep: it does not widen the patch.
-  const BandTags tags{scene.object.data(),       candidate.object, kSupportObject, -reach_m, kBin,
-                      Profile::num_bins(reach_m)};
-  point_kernels().tag_band(tags, band(buffers), buffers.own.data(), buffers.bins.data());
+  point_kernels().tag_band(tags, band(buffers), buffers.own.data(), buffers.marks.data());
 }
 
 }  // namespace
@@ -202,19 +200,19 @@ Failure fit_patch(const SceneView& scene, const Gripper& gripper, const HandleCh
                   const Candidate& candidate, CheckBuffers& buffers, PatchFit& fit) {
   const Gripper& g = gripper;
   const float reach = profile_reach(scene, g);
+  const BandTags tags = band_tags(scene, candidate, reach);
   // As far up as the fingers reach when they go in the least deep.
   const float above = g.finger_length_m - config.min_grip_depth_m + kTopWindow;
   const auto gather = [&](float z) {
     scene.query.find(
         candidate.position, candidate.rotation, {-0.5f * g.finger_thickness_m, -reach, z - above},
         {0.5f * g.finger_thickness_m, reach, z + g.grasp_depth_m + 2 * kTopWindow}, buffers.local);
-    describe_points(scene, candidate, reach, buffers);
+    describe_points(tags, buffers);
   };
   gather(0);
   if (!find_top(buffers, -kTopWindow, kTopWindow, fit.top_m)) return Failure::kTooFewPoints;
-  if (const Failure failure = find_patch(scene, g, buffers, 0, fit); failure != Failure::kNone)
-    return failure;
-  if (const Failure failure = settle_top(scene, g, buffers, gather, fit); failure != Failure::kNone)
+  if (const Failure failure = find_patch(tags, g, buffers, 0, fit); failure != Failure::kNone) return failure;
+  if (const Failure failure = settle_top(tags, g, buffers, gather, fit); failure != Failure::kNone)
     return failure;
   const float raise = raise_for_obstacles(scene, g, config, candidate, buffers, fit);
   if (raise > g.grasp_depth_m - config.min_grip_depth_m) return Failure::kFingers;

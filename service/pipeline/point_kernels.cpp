@@ -3,6 +3,7 @@
 #include "service/pipeline/point_kernels.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace graspd {
@@ -123,13 +124,14 @@ void number_cells(const CellGrid& grid, const float* x, const float* y, const fl
     out[i] = from_first(x[i], 0) + grid.row * from_first(y[i], 1) + grid.layer * from_first(z[i], 2);
 }
 
-void tag_band(const BandTags& tags, const BandPoints& points, std::int32_t* own, std::int32_t* bins) {
+void tag_band(const BandTags& tags, const BandPoints& points, std::int32_t* own, std::int32_t* marks) {
   for (std::size_t k = 0; k < points.size; ++k)
-    bins[k] = cell_index((points.f[k] - tags.first) / tags.bin, 1);
+    marks[k] = cell_index((points.f[k] - tags.first) / tags.bin, 1);
   for (std::size_t k = 0; k < points.size; ++k) {
-    const std::int32_t object = tags.object_of_point[points.index[k]];
+    const std::int32_t object = tags.object_of_point[points.index[k]], bin = marks[k];
     own[k] = object == tags.object ? 1 : 0;
-    if (object == tags.left_out || bins[k] >= tags.num_bins) bins[k] = -1;
+    const bool has_entry = object != tags.left_out && bin >= 0 && bin < tags.num_bins;
+    marks[k] = has_entry ? 2 * bin + own[k] : tags.no_mark();
   }
 }
 
@@ -143,11 +145,23 @@ std::size_t keep_depths(const BandPoints& points, const std::int32_t* own, float
   return n;
 }
 
+std::size_t select_band(const BandLimits& limits, const BandPoints& points, std::uint32_t* out) {
+  std::size_t n = 0;
+  for (std::size_t k = 0; k < points.size; ++k) {
+    const float distance = std::abs(points.f[k] - limits.middle), depth = points.z[k] - limits.top;
+    out[n] = static_cast<std::uint32_t>(k);
+    n +=
+        static_cast<std::size_t>(int{distance >= limits.min_distance} & int{distance <= limits.max_distance} &
+                                 int{depth >= limits.min_depth} & int{depth <= limits.max_depth});
+  }
+  return n;
+}
+
 }  // namespace
 
 const PointKernels& portable_kernels() {
-  static constexpr PointKernels kKernels{keep_inside,   count_inside, keep_near, sum_moments,
-                                         extend_bounds, number_cells, tag_band,  keep_depths};
+  static constexpr PointKernels kKernels{keep_inside,  count_inside, keep_near,   sum_moments, extend_bounds,
+                                         number_cells, tag_band,     keep_depths, select_band};
   return kKernels;
 }
 

@@ -50,6 +50,17 @@ struct BandTags {
   std::int32_t object, left_out;  ///< points of left_out take no part in the profile
   float first, bin;               ///< where bin 0 begins, and the length of each [m]
   std::int32_t num_bins;
+
+  /// Entries of a profile have two marks each, for points of others and for the object's; this is the mark of
+  /// points that have no entry.
+  [[nodiscard]] std::int32_t no_mark() const { return 2 * num_bins; }
+};
+
+/// Part of a band, about its middle and top; bounds belong to it.
+struct BandLimits {
+  float middle, top;                 ///< f and z that distances and depths are from
+  float min_distance, max_distance;  ///< of |f - middle|
+  float min_depth, max_depth;        ///< of z - top
 };
 
 /// Sums over neighbours of their offsets from a point, and of the products of the offsets.
@@ -75,13 +86,16 @@ struct PointKernels {
   /// Writes the number of the cell of each of n points.
   void (*number_cells)(const CellGrid& grid, const float* x, const float* y, const float* z, std::size_t n,
                        std::uint32_t* out);
-  /// own: 1 for each point of the object; bins: that of each point, negative where it has none. There must be
-  /// room for size + kPointPadding, and as many points to read.
-  void (*tag_band)(const BandTags& tags, const BandPoints& points, std::int32_t* own, std::int32_t* bins);
+  /// own: 1 for each point of the object; marks: 2 bin + own, or no_mark(). There must be room for size +
+  /// kPointPadding, and as many points to read.
+  void (*tag_band)(const BandTags& tags, const BandPoints& points, std::int32_t* own, std::int32_t* marks);
   /// Writes z of the own points with f in [f_min, f_max], in their order; returns their number. There must be
   /// room for size + kPointPadding, and as many points to read.
   std::size_t (*keep_depths)(const BandPoints& points, const std::int32_t* own, float f_min, float f_max,
                              float* out);
+  /// Writes the positions among the points of those within the limits, ascending; returns their number. There
+  /// must be room for size + kPointPadding, and as many points to read.
+  std::size_t (*select_band)(const BandLimits& limits, const BandPoints& points, std::uint32_t* out);
 };
 
 /// floor(coordinate * per_cell) by truncation, which unlike std::floor needs no call and goes into vectors.

@@ -41,9 +41,10 @@ GRASPD_AVX2 inline void store_index(std::uint32_t* to, const std::uint32_t* from
   _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm256_permutevar8x32_epi32(v, lanes));
 }
 
-/// Lanes of a block of eight that hold points, where so many are left.
-inline unsigned valid_lanes(std::size_t left) {
-  return left >= 8 ? 0xffu : (1u << left) - 1;
+/// Of a mask of the block of eight that begins at k the lanes that hold points, of so many points.
+inline unsigned valid_lanes(int mask, std::size_t k, std::size_t size) {
+  const auto lanes = static_cast<unsigned>(mask);
+  return k + 8 <= size ? lanes : lanes & ((1u << (size - k)) - 1);
 }
 
 struct Box {
@@ -76,7 +77,7 @@ GRASPD_AVX2 std::size_t keep_inside(const BoxTest& test, const PointRange& point
                  z = _mm256_loadu_ps(points.z + k);
     const __m256 a = box.local(0, x, y, z), f = box.local(1, x, y, z), d = box.local(2, x, y, z);
     const __m256 inside = _mm256_and_ps(_mm256_and_ps(box.within(0, a), box.within(1, f)), box.within(2, d));
-    const unsigned mask = static_cast<unsigned>(_mm256_movemask_ps(inside)) & valid_lanes(points.size - k);
+    const unsigned mask = valid_lanes(_mm256_movemask_ps(inside), k, points.size);
     if (mask == 0) continue;
     const __m256i lanes = lanes_of(mask);
     store(out.a + n, a, lanes);
@@ -97,7 +98,7 @@ GRASPD_AVX2 std::size_t count_inside(const BoxTest& test, const PointRange& poin
     const __m256 inside = _mm256_and_ps(
         _mm256_and_ps(box.within(0, box.local(0, x, y, z)), box.within(1, box.local(1, x, y, z))),
         box.within(2, box.local(2, x, y, z)));
-    const unsigned mask = static_cast<unsigned>(_mm256_movemask_ps(inside)) & valid_lanes(points.size - k);
+    const unsigned mask = valid_lanes(_mm256_movemask_ps(inside), k, points.size);
     n += static_cast<std::size_t>(std::popcount(mask));
   }
   return n;
@@ -115,8 +116,7 @@ GRASPD_AVX2 std::size_t keep_near(const float (&p)[3], float distance_squared, c
     const __m256 distance =
         _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(dx, dx), _mm256_mul_ps(dy, dy)), _mm256_mul_ps(dz, dz));
     const unsigned mask =
-        static_cast<unsigned>(_mm256_movemask_ps(_mm256_cmp_ps(distance, most, _CMP_LE_OQ))) &
-        valid_lanes(points.size - k);
+        valid_lanes(_mm256_movemask_ps(_mm256_cmp_ps(distance, most, _CMP_LE_OQ)), k, points.size);
     store_index(out + n, points.index + k, lanes_of(mask));
     n += static_cast<std::size_t>(std::popcount(mask));
   }
@@ -212,22 +212,25 @@ GRASPD_AVX2 void number_cells(const CellGrid& grid, const float* x, const float*
 }
 
 GRASPD_AVX2 void tag_band(const BandTags& tags, const BandPoints& points, std::int32_t* own,
-                          std::int32_t* bins) {
+                          std::int32_t* marks) {
   const __m256 first = _mm256_set1_ps(tags.first), bin = _mm256_set1_ps(tags.bin);
   const __m256i object = _mm256_set1_epi32(tags.object), left_out = _mm256_set1_epi32(tags.left_out),
-                last = _mm256_set1_epi32(tags.num_bins - 1);
+                last = _mm256_set1_epi32(tags.num_bins - 1), no_mark = _mm256_set1_epi32(tags.no_mark());
   std::size_t k = 0;
   for (; k + 8 <= points.size; k += 8) {
     const __m256i of_point =
         _mm256_i32gather_epi32(tags.object_of_point, load(points.index + k), sizeof(std::int32_t));
+    const __m256i is_own = _mm256_srli_epi32(_mm256_cmpeq_epi32(of_point, object), 31);
     const __m256i b = floor_to_int(_mm256_div_ps(_mm256_sub_ps(_mm256_loadu_ps(points.f + k), first), bin));
-    const __m256i none = _mm256_or_si256(_mm256_cmpeq_epi32(of_point, left_out), _mm256_cmpgt_epi32(b, last));
-    _mm256_storeu_si256(reinterpret_cast<__m256i*>(own + k),
-                        _mm256_srli_epi32(_mm256_cmpeq_epi32(of_point, object), 31));
-    _mm256_storeu_si256(reinterpret_cast<__m256i*>(bins + k), _mm256_or_si256(b, none));
+    const __m256i outside = _mm256_or_si256(b, _mm256_cmpgt_epi32(b, last));  // by its sign
+    const __m256i none =
+        _mm256_or_si256(_mm256_cmpeq_epi32(of_point, left_out), _mm256_srai_epi32(outside, 31));
+    const __m256i mark = _mm256_or_si256(_mm256_add_epi32(b, b), is_own);
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(own + k), is_own);
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(marks + k), _mm256_blendv_epi8(mark, no_mark, none));
   }
   portable_kernels().tag_band(tags, {points.f + k, points.z + k, points.index + k, points.size - k}, own + k,
-                              bins + k);
+                              marks + k);
 }
 
 GRASPD_AVX2 std::size_t keep_depths(const BandPoints& points, const std::int32_t* own, float f_min,
@@ -238,9 +241,31 @@ GRASPD_AVX2 std::size_t keep_depths(const BandPoints& points, const std::int32_t
     const __m256 f = _mm256_loadu_ps(points.f + k);
     const __m256 within = _mm256_and_ps(_mm256_cmp_ps(f, min, _CMP_GE_OQ), _mm256_cmp_ps(f, max, _CMP_LE_OQ));
     const __m256 is_own = _mm256_castsi256_ps(_mm256_cmpgt_epi32(load(own + k), _mm256_setzero_si256()));
-    const unsigned mask = static_cast<unsigned>(_mm256_movemask_ps(_mm256_and_ps(within, is_own))) &
-                          valid_lanes(points.size - k);
+    const unsigned mask = valid_lanes(_mm256_movemask_ps(_mm256_and_ps(within, is_own)), k, points.size);
     store(out + n, _mm256_loadu_ps(points.z + k), lanes_of(mask));
+    n += static_cast<std::size_t>(std::popcount(mask));
+  }
+  return n;
+}
+
+GRASPD_AVX2 std::size_t select_band(const BandLimits& limits, const BandPoints& points, std::uint32_t* out) {
+  const __m256 middle = _mm256_set1_ps(limits.middle), top = _mm256_set1_ps(limits.top),
+               min_distance = _mm256_set1_ps(limits.min_distance),
+               max_distance = _mm256_set1_ps(limits.max_distance),
+               min_depth = _mm256_set1_ps(limits.min_depth), max_depth = _mm256_set1_ps(limits.max_depth);
+  const __m256 sign = _mm256_set1_ps(-0.0f);
+  std::size_t n = 0;
+  for (std::size_t k = 0; k < points.size; k += 8) {
+    const __m256 distance = _mm256_andnot_ps(sign, _mm256_sub_ps(_mm256_loadu_ps(points.f + k), middle));
+    const __m256 depth = _mm256_sub_ps(_mm256_loadu_ps(points.z + k), top);
+    const __m256 near = _mm256_and_ps(_mm256_cmp_ps(distance, min_distance, _CMP_GE_OQ),
+                                      _mm256_cmp_ps(distance, max_distance, _CMP_LE_OQ));
+    const __m256 within = _mm256_and_ps(_mm256_cmp_ps(depth, min_depth, _CMP_GE_OQ),
+                                        _mm256_cmp_ps(depth, max_depth, _CMP_LE_OQ));
+    const unsigned mask = valid_lanes(_mm256_movemask_ps(_mm256_and_ps(near, within)), k, points.size);
+    if (mask == 0) continue;
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(out + n),
+                        _mm256_add_epi32(lanes_of(mask), _mm256_set1_epi32(static_cast<int>(k))));
     n += static_cast<std::size_t>(std::popcount(mask));
   }
   return n;
@@ -249,8 +274,8 @@ GRASPD_AVX2 std::size_t keep_depths(const BandPoints& points, const std::int32_t
 }  // namespace
 
 const PointKernels* avx2_kernels() {
-  static constexpr PointKernels kKernels{keep_inside,   count_inside, keep_near, sum_moments,
-                                         extend_bounds, number_cells, tag_band,  keep_depths};
+  static constexpr PointKernels kKernels{keep_inside,  count_inside, keep_near,   sum_moments, extend_bounds,
+                                         number_cells, tag_band,     keep_depths, select_band};
   static const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("popcnt");
   return has_avx2 ? &kKernels : nullptr;
 }

@@ -201,11 +201,13 @@ std::optional<Support> find_support(const PointCloud& cloud, const SupportConfig
     return std::nullopt;
   support.sigma_m = scatter(cloud, support.plane, config.thickness_m);
   support.is_support.resize(cloud.size());
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const Eigen::Vector3f p = cloud.point(i);
-    support.is_support[i] =
-        support.plane.height(p) < support_thickness(p, cloud.viewpoint, support.sigma_m, config) ? 1 : 0;
-  }
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cloud.size(), 8192), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i != range.end(); ++i) {
+      const Eigen::Vector3f p = cloud.point(i);
+      support.is_support[i] =
+          support.plane.height(p) < support_thickness(p, cloud.viewpoint, support.sigma_m, config) ? 1 : 0;
+    }
+  });
   return support;
 }
 

@@ -123,6 +123,22 @@ TEST(BoxQuery, ThinBoxesAndCellsOfAllSizes) {
   }
 }
 
+TEST(BoxQuery, RowsWithGapsAndFarPoints) {
+  // Two clusters in the same rows, a gap of 50 cells between them, and points that make rows of their own.
+  PointCloud cloud = random_cloud(400, {-0.55f, -0.05f, -0.05f}, {-0.45f, 0.05f, 0.05f}, 9);
+  const PointCloud other = random_cloud(400, {0.45f, -0.05f, -0.05f}, {0.6f, 0.05f, 0.05f}, 10);
+  for (std::size_t i = 0; i < other.size(); ++i) cloud.push_back(other.point(i));
+  for (const float far : {-9000.0f, -3.0f, 0.0f, 3.0f, 9000.0f}) cloud.push_back({far, 0.01f, 0.01f});
+  const BoxQuery query(cloud, 0.02f);
+  std::mt19937 random(11);
+  for (int k = 0; k < 200; ++k) {
+    QueryBox box = random_box(random, 0.05f, k % 4 == 0 ? 2.0f : 0.3f);
+    box.origin.x() += k % 3 == 0 ? -0.5f : 0.5f;
+    if (k % 5 == 0) box.rotation.setIdentity();
+    expect_brute_force(cloud, query, box);
+  }
+}
+
 TEST(BoxQuery, OrderIsFixedByPositionsAndBuffersAreReplaced) {
   const PointCloud cloud = random_cloud(3000, {-0.1f, -0.1f, -0.1f}, {0.1f, 0.1f, 0.1f}, 7);
   const BoxQuery query(cloud, 0.02f);

@@ -12,13 +12,6 @@
 namespace graspd {
 namespace {
 
-Eigen::Vector3i cell_of_key(const CellOrder& order, std::int64_t key) {
-  const std::int64_t in_layer = key % order.layer;
-  return order.min_cell + Eigen::Vector3i(static_cast<int>(in_layer % order.row),
-                                          static_cast<int>(in_layer / order.row),
-                                          static_cast<int>(key / order.layer));
-}
-
 void expect_sorted_and_complete(const PointCloud& cloud, const CellOrder& order) {
   ASSERT_EQ(order.points.size(), cloud.size());
   ASSERT_EQ(order.starts.size(), order.num_cells() + 1);
@@ -40,7 +33,7 @@ void expect_sorted_and_complete(const PointCloud& cloud, const CellOrder& order)
 
 void expect_points_inside_their_cells(const PointCloud& cloud, const CellOrder& order) {
   for (std::size_t c = 0; c < order.num_cells(); ++c) {
-    const Eigen::Vector3f corner = cell_of_key(order, order.keys[c]).cast<float>() * order.cell_m;
+    const Eigen::Vector3f corner = order.cell_of(order.keys[c]).cast<float>() * order.cell_m;
     for (const std::uint32_t i : order.cell(c)) {
       const Eigen::Vector3f in_cell = cloud.point(i) - corner;
       const float rounding = 4e-7f * cloud.point(i).cwiseAbs().maxCoeff();
@@ -52,7 +45,7 @@ void expect_points_inside_their_cells(const PointCloud& cloud, const CellOrder& 
 
 void expect_no_neighbour_wraps(const CellOrder& order) {
   std::map<std::int64_t, Eigen::Vector3i> occupied;
-  for (const std::int64_t key : order.keys) occupied[key] = cell_of_key(order, key);
+  for (const std::int64_t key : order.keys) occupied[key] = order.cell_of(key);
   for (const auto& [key, cell] : occupied)
     for (int dz = -1; dz <= 1; ++dz)
       for (int dy = -1; dy <= 1; ++dy)
@@ -74,7 +67,7 @@ void expect_all(const PointCloud& cloud, float cell_m) {
 TEST(CellOrder, EmptyCloud) {
   const CellOrder order = order_by_cell({}, 0.01f);
   EXPECT_EQ(order.num_cells(), 0u);
-  EXPECT_EQ(order.starts, std::vector<std::uint32_t>{0});
+  EXPECT_EQ(order.starts, RawVector<std::uint32_t>{0});
 }
 
 TEST(CellOrder, OnePoint) {

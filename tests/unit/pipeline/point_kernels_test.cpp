@@ -177,20 +177,48 @@ TEST(PointKernels, TagBandsAndKeepDepths) {
     const BandPoints band{points.x.data(), points.y.data(), points.index.data(), size};
     const BandTags tags{object_of_point.data(), kOwn, kLeftOut, -0.8f, 0.01f, 150};
     for (const Form& form : forms()) {
-      std::vector<std::int32_t> own(size + kPointPadding, -9), bins(own);
-      form.kernels->tag_band(tags, band, own.data(), bins.data());
+      std::vector<std::int32_t> own(size + kPointPadding, -9), marks(own);
+      form.kernels->tag_band(tags, band, own.data(), marks.data());
       std::vector<float> expected;
       for (std::size_t k = 0; k < size; ++k) {
         const std::int32_t object = object_of_point[points.index[k]];
         EXPECT_EQ(own[k], object == kOwn ? 1 : 0);
         const auto bin = static_cast<std::int32_t>(std::floor((points.x[k] + 0.8f) / 0.01f));
         const bool has_none = object == kLeftOut || bin < 0 || bin >= 150;
-        EXPECT_EQ(has_none ? -1 : bin, std::max(bins[k], -1)) << form.name << " " << points.x[k];
+        EXPECT_EQ(marks[k], has_none ? 300 : 2 * bin + own[k]) << form.name << " " << points.x[k];
         if (object == kOwn && points.x[k] >= -0.5f && points.x[k] <= 0.25f) expected.push_back(points.y[k]);
       }
       std::vector<float> depths(size + kPointPadding);
       depths.resize(form.kernels->keep_depths(band, own.data(), -0.5f, 0.25f, depths.data()));
       EXPECT_EQ(depths, expected) << form.name << " " << size;
+    }
+  }
+}
+
+TEST(PointKernels, SelectPartsOfABand) {
+  constexpr float kAnywhere = std::numeric_limits<float>::infinity();
+  for (const std::size_t size : {0, 7, 8, 9, 400}) {
+    Points points(size, 8);
+    // On the bounds belongs to the part, NaN never does, and what is beyond the points does not count.
+    if (size > 2) points.x[1] = 0.1f + 0.25f;
+    if (size > 2) points.y[2] = std::numeric_limits<float>::quiet_NaN();
+    const BandPoints band{points.x.data(), points.y.data(), points.index.data(), size};
+    for (const BandLimits& limits : {BandLimits{0.1f, -0.2f, 0.0f, 0.1f + 0.25f - 0.1f, -0.5f, 0.5f},
+                                     BandLimits{0, 0.3f, 0.5f, kAnywhere, -1, 0}}) {
+      std::vector<std::uint32_t> expected;
+      for (std::uint32_t k = 0; k < size; ++k) {
+        const float distance = std::abs(points.x[k] - limits.middle), depth = points.y[k] - limits.top;
+        if (distance >= limits.min_distance && distance <= limits.max_distance && depth >= limits.min_depth &&
+            depth <= limits.max_depth)
+          expected.push_back(k);
+      }
+      for (const Form& form : forms()) {
+        std::vector<std::uint32_t> selected(size + kPointPadding + 1, kUntouched);
+        const std::size_t n = form.kernels->select_band(limits, band, selected.data());
+        EXPECT_EQ(selected.back(), kUntouched) << "writes beyond the room that is asked for";
+        selected.resize(n);
+        EXPECT_EQ(selected, expected) << form.name << " " << size;
+      }
     }
   }
 }
