@@ -40,9 +40,10 @@ OWN = {
     "service/config": {"service/pipeline", "service/transport/cloud_input.hpp", "service/transport/refusal.hpp"},
     "service/daemon": {"lcmtypes", "service/config", "service/transport", "service/runtime", "service/pipeline"},
     # graspd-detect reads the daemon's configuration, so that both find the same handles.
-    # graspd-replay answers a frame by the daemon's own code.
+    # graspd-replay answers a frame by the daemon's own code; it and graspd-bench keep memory as the daemon does.
     "client": {"lcmtypes", "service/transport", "service/pipeline", "service/config",
-               "service/daemon/answer.hpp", "service/daemon/frame_processor.hpp", "service/runtime/clock.hpp"},
+               "service/daemon/answer.hpp", "service/daemon/frame_processor.hpp", "service/runtime/clock.hpp",
+               "service/runtime/freed_memory.hpp"},
     "tests": {"lcmtypes", "service/config", "service/transport", "service/runtime", "service/pipeline",
               "service/daemon", "client"},
 }
