@@ -24,7 +24,7 @@ class Authentication(TrafficTest):
         super().setUp()
         self.key_file = self.folder / "key"
         self.run_program("graspd-keygen", self.key_file)
-        self.sealer = Sealer(bytes.fromhex(self.key_file.read_text(encoding="ascii")))
+        self.sealer = Sealer.from_file(self.key_file)
 
     def start_with_key(self):
         self.cloud = self.record_frames(1, width=160)[0]

@@ -18,7 +18,7 @@ class SealedLogs(GraspdTest):
         super().setUp()
         self.key_file = self.folder / "key"
         self.run_program("graspd-keygen", self.key_file)
-        self.sealer = Sealer(bytes.fromhex(self.key_file.read_text(encoding="ascii")))
+        self.sealer = Sealer.from_file(self.key_file)
         plain = self.folder / "plain.log"
         self.run_program("graspd-simulate", "--log", plain, "--frames", FRAMES, "--type", "depth", "--width", 160,
                          "--new-scene-every", 1)

@@ -23,6 +23,11 @@ class Sealer:
         self.sender = struct.unpack(">q", secrets.token_bytes(8))[0]
         self._numbers = itertools.count(1)
 
+    @classmethod
+    def from_file(cls, key_file):
+        """With the key that graspd-keygen wrote."""
+        return cls(bytes.fromhex(key_file.read_text(encoding="ascii")))
+
     def seal(self, channel, message, **changes):
         """The sealed message; changes to its members are signed, too."""
         members = dict(key_id=self.key_id, sender=self.sender, seq=next(self._numbers), utime=now_us(),

@@ -98,7 +98,7 @@ class Segments(TrafficTest):
     def test_with_keys_requests_are_signed_too(self):
         key_file = self.folder / "key"
         self.run_program("graspd-keygen", key_file)
-        sealer = Sealer(bytes.fromhex(key_file.read_text(encoding="ascii")))
+        sealer = Sealer.from_file(key_file)
         frame = self.record_frames(1, width=160)[0]
         self.bus = self.open_bus()
         daemon = self.start_daemon(self.bus, self.write_config(f'authentication: {{key_file: "{key_file}", max_age_s: 60}}'))

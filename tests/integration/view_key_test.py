@@ -86,7 +86,7 @@ class ViewKey(GraspdTest):
         plain, lists = self.folder / "plain.log", self.folder / "lists.log"
         self.run_program("graspd-simulate", "--log", plain, "--frames", 3, "--type", "depth", "--width", 160)
         self.run_program("graspd-replay", plain, "-o", lists)
-        sealer = Sealer(bytes.fromhex(self.key.read_text(encoding="ascii")))
+        sealer = Sealer.from_file(self.key)
         events = []
         for cloud, answer in zip(read_log(plain), read_log(lists)):
             events.append(cloud._replace(data=Sealer(bytes(32)).seal(CLOUDS, cloud.data)))  # a stranger's
