@@ -25,6 +25,7 @@ class LocalPoints {
   LocalPoints& operator=(LocalPoints&&) = default;
 
   [[nodiscard]] std::size_t size() const { return a.size(); }
+  [[nodiscard]] BandPoints band() const { return {f.data(), z.data(), index.data(), size()}; }
   void clear() { show(0); }
   void add_inside(const BoxTest& box, const PointRange& points);
 

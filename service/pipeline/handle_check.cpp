@@ -81,8 +81,7 @@ class Check {
 };
 
 std::size_t Check::select(float min_distance, float max_distance, float min_depth, float max_depth) {
-  return point_kernels().select_band({0, 0, min_distance, max_distance, min_depth, max_depth},
-                                     {local_.f.data(), local_.z.data(), local_.index.data(), local_.size()},
+  return point_kernels().select_band({0, 0, min_distance, max_distance, min_depth, max_depth}, local_.band(),
                                      buffers_.selected.data());
 }
 

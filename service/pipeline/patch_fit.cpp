@@ -58,16 +58,11 @@ int walk(const Profile& profile, int from, int step, int min_gap, int& next) {
   return last;
 }
 
-BandPoints band(const CheckBuffers& buffers) {
-  const LocalPoints& local = buffers.local;
-  return {local.f.data(), local.z.data(), local.index.data(), local.size()};
-}
-
 /// Depth that only a few of the object's points between f_min and f_max are above.
 bool find_top(CheckBuffers& buffers, float f_min, float f_max, float& top_m) {
   std::vector<float>& z = buffers.depths;
   const std::size_t n =
-      point_kernels().keep_depths(band(buffers), buffers.own.data(), f_min, f_max, z.data());
+      point_kernels().keep_depths(buffers.local.band(), buffers.own.data(), f_min, f_max, z.data());
   if (n < 4) return false;
   const std::size_t skip = std::min(n / 4, std::max<std::size_t>(1, n / 50));
   top_m = nth_value({z.data(), n}, skip);
@@ -94,7 +89,7 @@ float raise_for_obstacles(const SceneView& scene, const Gripper& g, const Handle
   const float beside = std::nextafter(half, 1.0f);
   const std::size_t n = point_kernels().select_band({fit.center_m, fit.top_m, beside, half + g.finger_width_m,
                                                      g.grasp_depth_m - g.finger_length_m, g.grasp_depth_m},
-                                                    band(buffers), buffers.selected.data());
+                                                    buffers.local.band(), buffers.selected.data());
   const auto allowed = static_cast<std::size_t>(scene.tolerance / 2);
   if (n > allowed) {
     for (std::size_t i = 0; i < n; ++i) buffers.depths[i] = buffers.local.z[buffers.selected[i]] - fit.top_m;
@@ -114,8 +109,8 @@ float profile_reach(const SceneView& scene, const Gripper& g) {
 Failure find_patch(const BandTags& tags, const Gripper& g, CheckBuffers& buffers, float f0, PatchFit& fit) {
   constexpr float kAnywhere = std::numeric_limits<float>::infinity();
   const std::size_t n = point_kernels().select_band(
-      {0, fit.top_m, 0, kAnywhere, g.grasp_depth_m - g.finger_length_m, g.grasp_depth_m}, band(buffers),
-      buffers.selected.data());
+      {0, fit.top_m, 0, kAnywhere, g.grasp_depth_m - g.finger_length_m, g.grasp_depth_m},
+      buffers.local.band(), buffers.selected.data());
   const Profile profile(tags, n, buffers);
   const auto is_own = [&profile](int b) { return profile.has_bin(b) && profile.has_own(b); };
   int start = profile.bin_of(f0);
@@ -191,7 +186,7 @@ void describe_points(const BandTags& tags, CheckBuffers& buffers) {
     buffers.widths.resize(2 * room);
     buffers.selected.resize(2 * room);
   }
-  point_kernels().tag_band(tags, band(buffers), buffers.own.data(), buffers.marks.data());
+  point_kernels().tag_band(tags, buffers.local.band(), buffers.own.data(), buffers.marks.data());
 }
 
 }  // namespace
