@@ -23,6 +23,7 @@ std::optional<std::string> problem(const BenchOptions& options) {
   if (!options.inputs.empty() && !has(suites, "stages")) return "files are for the suite stages alone";
   if (options.full && !has(suites, "stages")) return "--full is for the suite stages alone";
   if (!options.points.empty() && !has(suites, "points")) return "--points is for the suite points alone";
+  if (options.hogs > 0 && !has(suites, "lcm")) return "--hog is for the suite lcm alone";
   if (!options.plot_file.empty() && !has(suites, "points")) return "--plot shows the suite points";
   if (!options.plot_file.empty() && point_counts(options).size() < 2)
     return "--plot needs two sizes at least";

@@ -28,6 +28,7 @@ struct BenchOptions {
   bool full = false;
   std::vector<double> rates_hz = {30};
   double seconds = 5;
+  int hogs = 0;                ///< processes beside the daemon that never sleep
   std::string daemon_program;  ///< empty: graspd beside this program
   std::string daemon_config;
   std::string json_file, plot_file;

@@ -69,8 +69,8 @@ bool DaemonProcess::running() {
   return !ended_;
 }
 
-double DaemonProcess::cpu_seconds() const {
-  std::ifstream file("/proc/" + std::to_string(pid_) + "/stat");
+double process_cpu_seconds(pid_t pid) {
+  std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
   std::string text;
   std::getline(file, text, ')');  // the name may hold spaces
   constexpr int kFieldsBefore = 11;

@@ -9,6 +9,9 @@
 
 namespace graspd {
 
+/// Processor time of a running process so far [s].
+[[nodiscard]] double process_cpu_seconds(pid_t pid);
+
 class DaemonProcess {
  public:
   /// arguments: the program's path first. What it says is kept. Throws std::runtime_error when it cannot be
@@ -21,7 +24,7 @@ class DaemonProcess {
   [[nodiscard]] int pid() const { return pid_; }
   [[nodiscard]] bool running();
   /// Processor time so far [s].
-  [[nodiscard]] double cpu_seconds() const;
+  [[nodiscard]] double cpu_seconds() const { return process_cpu_seconds(pid_); }
   /// Largest resident memory so far [bytes].
   [[nodiscard]] double peak_bytes() const;
   /// What it wrote on standard error.

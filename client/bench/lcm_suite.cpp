@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "client/bench/bench_clouds.hpp"
+#include "client/bench/cpu_hogs.hpp"
 #include "client/bench/daemon_process.hpp"
 #include "client/bench/suites.hpp"
 #include "client/common/answer_summary.hpp"
@@ -112,7 +113,7 @@ class Answers {
 class Session {
  public:
   Session(const BenchOptions& options, const std::string& url)
-      : camera_(options), bus_(url), answers_(url), daemon_(arguments(options, url)) {
+      : camera_(options), bus_(url), answers_(url), daemon_(arguments(options, url)), hogs_(options.hogs) {
     await_daemon();
   }
 
@@ -180,6 +181,7 @@ class Session {
   LcmBus bus_;
   Answers answers_;
   DaemonProcess daemon_;
+  CpuHogs hogs_;
   std::int64_t next_seq_ = 0;
 };
 
@@ -187,11 +189,13 @@ BenchResult Session::run(const BenchOptions& options, double rate_hz) {
   answers_.count_from(next_seq_);
   (void)send(kWarmUpFrames, rate_hz);
   answers_.count_from(next_seq_);
-  const double cpu_before = daemon_.cpu_seconds();
+  const double cpu_before = daemon_.cpu_seconds(), hogged_before = hogs_.cpu_seconds();
   const auto start = Clock::now();
   const std::int64_t sent = send(std::max<std::int64_t>(1, std::llround(options.seconds * rate_hz)), rate_hz);
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-  BenchResult result{"lcm", printed("%g Hz", rate_hz), 0, 0, 0, {}, {}};
+  const std::string beside =
+      options.hogs > 0 ? printed(", %d hog%s", options.hogs, options.hogs == 1 ? "" : "s") : "";
+  BenchResult result{"lcm", printed("%g Hz", rate_hz) + beside, 0, 0, 0, {}, {}};
   result.times.push_back({std::string(kWhole), answers_.latency_ms()});
   result.figures = {{"sent", static_cast<double>(sent)},
                     {"answers", static_cast<double>(answers_.count())},
@@ -200,7 +204,9 @@ BenchResult Session::run(const BenchOptions& options, double rate_hz) {
                     {"lost", static_cast<double>(sent - answers_.count())},
                     {"message_bytes", static_cast<double>(camera_.message(next_seq_).size())},
                     {"daemon_cores", (daemon_.cpu_seconds() - cpu_before) / seconds},
-                    {"daemon_peak_bytes", daemon_.peak_bytes()}};
+                    {"daemon_peak_bytes", daemon_.peak_bytes()},
+                    {"hogs", static_cast<double>(options.hogs)},
+                    {"hog_cores", (hogs_.cpu_seconds() - hogged_before) / seconds}};
   return result;
 }
 

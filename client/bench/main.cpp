@@ -61,6 +61,9 @@ void add_options(CLI::App& app, BenchOptions& o) {
   app.add_option("--seconds", o.seconds, "lcm: length of a run")
       ->check(CLI::Range(0.1, 3600.0))
       ->capture_default_str();
+  app.add_option("--hog", o.hogs, "lcm: beside so many processes that never sleep, each on a core of its own")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
   app.add_option("--graspd", o.daemon_program, "lcm: the daemon (default: the one beside this program)")
       ->check(CLI::ExistingFile);
   app.add_option("--config", o.daemon_config, "lcm: the daemon's configuration")->check(CLI::ExistingFile);

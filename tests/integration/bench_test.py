@@ -63,6 +63,22 @@ class Bench(GraspdTest):
         self.assertEqual(figures["lost"], 0)
         self.assertEqual(result["times_ms"]["whole"]["rounds"], figures["answers"] - figures["dropped"])
         self.assertGreater(figures["daemon_peak_bytes"], 1e6)
+        self.assertEqual([figures["hogs"], figures["hog_cores"]], [0, 0])
+
+    def test_beside_a_hog(self):
+        program, report = self.measure("--suite", "lcm", "--hog", "1", *TINY)
+        result = report["results"][0]
+        self.assertEqual(result["name"], "5 Hz, 1 hog")
+        self.assertIn("hog_cores", program.out)
+        self.assertEqual(result["figures"]["hogs"], 1)
+        self.assertGreater(result["figures"]["hog_cores"], 0)
+        self.assertLess(result["figures"]["hog_cores"], 1.1)
+        self.assertEqual(result["figures"]["sent"], 10)
+
+    def test_more_hogs_than_cores(self):
+        hogs = os.cpu_count() + 1
+        program, _ = self.measure("--suite", "lcm", "--hog", str(hogs), *TINY[:6], code=1)
+        self.assertIn("fewer cores than hogs", program.err)
 
     def test_files(self):
         frames = self.simulate(1, "--scene", "easy", width=160)
@@ -84,7 +100,7 @@ class Bench(GraspdTest):
 
     def test_what_does_not_go_together(self):
         for arguments in (["--suite", "codec", "--plot", "x.svg"], ["--suite", "nothing"], ["--suite", "lcm", "x.pcd"],
-                          ["--rounds", "0"], ["--rate", "0"], ["--points", "3"], ["--graspd", "/no/such/program"]):
+                          ["--rounds", "0"], ["--rate", "0"], ["--hog", "-1"], ["--suite", "codec", "--hog", "1"], ["--points", "3"], ["--graspd", "/no/such/program"]):
             self.assertNotEqual(self.run_program("graspd-bench", *arguments, code=2).err, "")
 
 
