@@ -43,7 +43,7 @@ struct FrameRun {
 };
 
 FrameRun run_frame(const std::vector<std::byte>& message, const DetectConfig& config, tbb::task_arena& arena,
-                   std::vector<std::byte>& answer) {
+                   HandleListMessage& answer) {
   FrameRun run;
   LapTimer whole, part;
   const Frame frame = decoded(message);
@@ -55,9 +55,9 @@ FrameRun run_frame(const std::vector<std::byte>& message, const DetectConfig& co
   header.seq = frame.seq;
   header.source_channel = "CAMERA";
   header.frame_name = frame.frame_name;
-  header.stages_ms = run.detection.stages_ms;
+  header.stages_ms.assign(run.detection.stages_ms.begin(), run.detection.stages_ms.end());
   header.status = wire_status(run.detection.detection.status);
-  encode(make_handle_list(header, Gripper{}, run.detection.detection, Eigen::Isometry3f::Identity()), answer);
+  encode(header, Gripper{}, run.detection.detection, Eigen::Isometry3f::Identity(), answer);
   run.encode_ms = part.lap_ms();
   run.whole_ms = whole.lap_ms();
   run.points = frame.cloud.size();
@@ -68,12 +68,12 @@ BenchResult measure_message(const Message& message, int threads, const BenchOpti
   ThreadLimit limit(threads);
   const DetectConfig config;
   const DetectConfig plain = plain_config(config);
-  std::vector<std::byte> answer;
+  HandleListMessage answer;
   const FrameRun warm = run_frame(message.bytes, config, limit.arena(), answer);
   BenchResult result{"codec", message.name, threads, warm.points, warm.detection.detection.points_used, {},
                      {}};
   result.figures = {{"message_bytes", static_cast<double>(message.bytes.size())},
-                    {"answer_bytes", static_cast<double>(answer.size())},
+                    {"answer_bytes", static_cast<double>(answer.bytes.size())},
                     {"handles", static_cast<double>(warm.detection.detection.handles.size())}};
   for (int round = 0; round < options.rounds && !(round > 0 && stop_requested()); ++round) {
     const FrameRun run = run_frame(message.bytes, config, limit.arena(), answer);

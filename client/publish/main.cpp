@@ -71,7 +71,7 @@ bool send_file(const Options& o, const std::filesystem::path& path, Pacer& pacer
   const Pinhole camera = depth ? pinhole_of(path, labelled.cloud) : Pinhole{};
   if (!pacer.next()) return false;
   const std::string name = o.frame_name.empty() ? path.stem().string() : o.frame_name;
-  const FrameHeader header{wall_clock_us(), o.first_seq + publisher.frames(), name};
+  const FrameHeader header{wall_clock_us(), o.first_seq + publisher.frames(), std::pmr::string(name)};
   if (depth) {
     publisher.send_depth(header, camera, labelled.cloud.z, o.depth_scale_m);
   } else {

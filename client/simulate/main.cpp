@@ -155,7 +155,7 @@ int publish(const CLI::App& app, const Options& o, Simulation& simulation) {
     const DepthFrame frame = simulation.frame(k);
     if (!pacer.next()) break;
     if (truth) truth->write(k, frame);
-    send(publisher, o, {wall_clock_us(), k, o.frame_name}, frame);
+    send(publisher, o, {wall_clock_us(), k, std::pmr::string(o.frame_name)}, frame);
   }
   say(app, publisher.summary());
   return kExitOk;
@@ -181,7 +181,7 @@ int write_log(const CLI::App& app, const Options& o, Simulation& simulation) {
     utime = kStartUtime + std::llround(1e6 * static_cast<double>(k) / rate_hz);
     const DepthFrame frame = simulation.frame(k);
     if (truth) truth->write(k, frame);
-    send(publisher, o, {utime, k, o.frame_name}, frame);
+    send(publisher, o, {utime, k, std::pmr::string(o.frame_name)}, frame);
   }
   say(app, publisher.summary());
   return kExitOk;

@@ -137,7 +137,8 @@ void write_segmentation(JsonWriter& json, const segmentation_t& segmentation) {
 std::string frame_json(const MatchedFrame& frame, const Frame& decoded,
                        const std::optional<segmentation_t>& segmentation,
                        const Eigen::Isometry3f& T_target_cloud) {
-  const std::string& frame_name = frame.list ? frame.list->frame_name : decoded.frame_name;
+  const std::string_view frame_name =
+      frame.list ? std::string_view(frame.list->frame_name) : decoded.frame_name;
   const Eigen::Vector3f viewpoint = T_target_cloud * decoded.cloud.viewpoint;
   const Eigen::Vector3f position = T_target_cloud.translation();
   const Eigen::Quaternionf q = quaternion(T_target_cloud.linear());

@@ -4,13 +4,14 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <memory_resource>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "graspd/handle_list_t.hpp"
 #include "service/runtime/clock.hpp"
+#include "service/transport/handle_list_codec.hpp"
 #include "service/transport/refusal.hpp"
 
 namespace graspd {
@@ -40,8 +41,10 @@ struct Answer {
   std::optional<RefusalReason> refusal;   ///< with kRefused
   std::optional<DropReason> drop;         ///< with kDropped
   Clock::TimePoint arrival{};             ///< of the message
-  std::string handles_channel;            ///< to publish it on
-  handle_list_t list{};                   ///< complete but for the latency
+  bool degraded = false;                  ///< as the list says
+  std::pmr::string status_text;           ///< as the list says
+  std::string handles_channel;            ///< to publish the list on
+  HandleListMessage list;                 ///< complete but for the latency
   std::string segments_channel{};         ///< to publish the next one on
   std::vector<std::byte> segmentation{};  ///< a message; empty: none, or nobody wants it
 };

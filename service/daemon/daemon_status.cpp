@@ -11,15 +11,17 @@ namespace graspd {
 
 void Daemon::publish(Stream& stream, Answer answer) {
   const double latency_s = seconds(clock_.now() - answer.arrival);
-  answer.list.latency = latency_s;
+  answer.list.set_latency(latency_s);
   if (answer.outcome == Outcome::kRefused)
-    log_.warning("frame_refused", {{"channel", stream.channel}, {"reason", answer.list.status_text}});
+    log_.warning("frame_refused",
+                 {{"channel", stream.channel}, {"reason", std::string_view(answer.status_text)}});
   if (answer.outcome == Outcome::kFailed)
-    log_.error("frame_failed", {{"channel", stream.channel}, {"reason", answer.list.status_text}});
+    log_.error("frame_failed",
+               {{"channel", stream.channel}, {"reason", std::string_view(answer.status_text)}});
   follow_load(stream, answer, latency_s);
   // Counted first: whoever has the answer finds it in the next status.
   stream.health.answered(answer, latency_s);
-  send(answer.handles_channel, encode(answer.list));
+  send(answer.handles_channel, answer.list.bytes);
   if (!answer.segmentation.empty()) send(answer.segments_channel, answer.segmentation);
 }
 

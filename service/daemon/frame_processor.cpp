@@ -13,10 +13,17 @@
 namespace graspd {
 namespace {
 
-std::string status_text(const Detection& detection) {
+/// Digits fit into a string without memory of its own.
+std::pmr::string with_number(std::string_view before, std::size_t number, std::string_view after) {
+  std::pmr::string text(before);
+  text += std::to_string(number);
+  return text += after;
+}
+
+std::pmr::string status_text(const Detection& detection) {
   switch (detection.status) {
     case DetectionStatus::kOk:
-      return std::to_string(detection.handles.size()) + " handles";
+      return with_number("", detection.handles.size(), " handles");
     case DetectionStatus::kEmptyCloud:
       return "the cloud has no points";
     case DetectionStatus::kNoFinitePoints:
@@ -24,7 +31,8 @@ std::string status_text(const Detection& detection) {
     case DetectionStatus::kNothingInWorkspace:
       return "no finite point is inside the workspace";
     case DetectionStatus::kNoHandles:
-      return "no candidate of " + std::to_string(detection.num_candidates) + " can be held";
+      return with_number("no candidate of ", static_cast<std::size_t>(detection.num_candidates),
+                         " can be held");
   }
   return "";
 }
@@ -40,7 +48,7 @@ class StageTimer {
     last_ = now;
   }
 
-  std::vector<std::pair<std::string, double>> stages_ms;
+  StageTimes stages_ms;
 
  private:
   const Clock& clock_;
@@ -91,28 +99,22 @@ Answer FrameProcessor::detect(const FrameMessage& message, Effort effort,
   if (const auto* refusal = std::get_if<Refusal>(&decoded)) return refuse(*refusal, message.arrival);
   on_stage("decode");
   const Frame& frame = std::get<Frame>(decoded);
-  const Gripper& gripper = source_.gripper.gripper;
   const DetectConfig& settings = effort == Effort::kDegraded ? degraded_detect_ : source_.detect;
   const bool with_segments = publishes_segments(message);
   Surfaces surfaces;
-  const Detection detection =
-      detect_handles(frame.cloud, gripper, settings, on_stage, with_segments ? &surfaces : nullptr);
+  const Detection detection = detect_handles(frame.cloud, source_.gripper.gripper, settings, on_stage,
+                                             with_segments ? &surfaces : nullptr);
   HandleListHeader header = list_header({frame.utime, frame.seq, frame.frame_name});
   header.voxel_m = double{settings.downsample.leaf_size_m};
   header.degraded = effort == Effort::kDegraded && source_.degrade.voxel_m > 0;
   header.status = wire_status(detection.status);
   header.status_text = status_text(detection);
   header.stages_ms = std::move(timer.stages_ms);
-  const Eigen::Isometry3f T_target_cloud = source_.sensor_pose.T_target_cloud();
-  Answer answer{Outcome::kProcessed,
-                std::nullopt,
-                std::nullopt,
-                message.arrival,
-                source_.handles_channel,
-                make_handle_list(header, gripper, detection, T_target_cloud)};
+  Answer answer = make_answer(Outcome::kProcessed, header, detection, message.arrival);
   if (!surfaces.cloud.empty()) {
     answer.segments_channel = source_.segments_channel;
-    answer.segmentation = encode(make_segmentation(header, detection, surfaces, T_target_cloud));
+    answer.segmentation =
+        encode(make_segmentation(header, detection, surfaces, source_.sensor_pose.T_target_cloud()));
   }
   return answer;
 }
@@ -126,7 +128,7 @@ Answer FrameProcessor::drop(const FrameMessage& message, DropReason reason, cons
   HandleListHeader header = list_header(message.header);
   header.status = handle_list_t::OVERLOADED;
   header.status_text = why;
-  Answer answer = without_detection(Outcome::kDropped, header, message.arrival);
+  Answer answer = make_answer(Outcome::kDropped, header, {}, message.arrival);
   answer.drop = reason;
   return answer;
 }
@@ -135,14 +137,14 @@ Answer FrameProcessor::fail(const FrameMessage& message, const std::string& why)
   HandleListHeader header = list_header(message.header);
   header.status = handle_list_t::FAILED;
   header.status_text = why;
-  return without_detection(Outcome::kFailed, header, message.arrival);
+  return make_answer(Outcome::kFailed, header, {}, message.arrival);
 }
 
 Answer FrameProcessor::refuse(const Refusal& refusal, Clock::TimePoint arrival) const {
   HandleListHeader header = list_header({refusal.utime, refusal.seq, refusal.frame_name});
   header.status = handle_list_t::REFUSED;
   header.status_text = std::string(name(refusal.reason)) + ": " + refusal.text;
-  Answer answer = without_detection(Outcome::kRefused, header, arrival);
+  Answer answer = make_answer(Outcome::kRefused, header, {}, arrival);
   answer.refusal = refusal.reason;
   return answer;
 }
@@ -154,18 +156,21 @@ HandleListHeader FrameProcessor::list_header(const FrameHeader& header) const {
   list.source_channel = channel_;
   list.config_revision = revision_;
   list.voxel_m = double{source_.detect.downsample.leaf_size_m};
-  list.frame_name = source_.sensor_pose.given() ? source_.sensor_pose.frame_name : header.frame_name;
+  list.frame_name = header.frame_name;
+  if (source_.sensor_pose.given()) list.frame_name = source_.sensor_pose.frame_name;
   return list;
 }
 
-Answer FrameProcessor::without_detection(Outcome outcome, const HandleListHeader& header,
-                                         Clock::TimePoint arrival) const {
-  return {outcome,
-          std::nullopt,
-          std::nullopt,
-          arrival,
-          source_.handles_channel,
-          make_handle_list(header, source_.gripper.gripper, Detection{}, Eigen::Isometry3f::Identity())};
+Answer FrameProcessor::make_answer(Outcome outcome, const HandleListHeader& header,
+                                   const Detection& detection, Clock::TimePoint arrival) const {
+  Answer answer;
+  answer.outcome = outcome;
+  answer.arrival = arrival;
+  answer.degraded = header.degraded;
+  answer.status_text = header.status_text;
+  answer.handles_channel = source_.handles_channel;
+  encode(header, source_.gripper.gripper, detection, source_.sensor_pose.T_target_cloud(), answer.list);
+  return answer;
 }
 
 }  // namespace graspd

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <memory_resource>
 #include <optional>
 #include <span>
 #include <string>
@@ -22,7 +23,7 @@ namespace graspd {
 /// A message that has arrived.
 struct FrameMessage {
   FrameHeader header;
-  std::vector<std::byte> bytes;
+  std::pmr::vector<std::byte> bytes;
   Clock::TimePoint arrival{};
   bool segments_requested = false;  ///< by somebody who wants to see them
 };
@@ -63,7 +64,8 @@ class FrameProcessor {
   Answer detect(const FrameMessage& message, Effort effort, const std::atomic<bool>& cancelled) const;
   [[nodiscard]] bool publishes_segments(const FrameMessage& message) const;
   HandleListHeader list_header(const FrameHeader& header) const;
-  Answer without_detection(Outcome outcome, const HandleListHeader& header, Clock::TimePoint arrival) const;
+  Answer make_answer(Outcome outcome, const HandleListHeader& header, const Detection& detection,
+                     Clock::TimePoint arrival) const;
 
   const SourceConfig source_;
   const DetectConfig degraded_detect_;

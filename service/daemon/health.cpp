@@ -47,7 +47,7 @@ void ChannelHealth::answered(const Answer& answer, double latency_s) {
     case Outcome::kFailed:
       ++processed_;
       failed_ += answer.outcome == Outcome::kFailed ? 1 : 0;
-      coarse_ += answer.list.degraded != 0 ? 1 : 0;
+      coarse_ += answer.degraded ? 1 : 0;
       latencies_.add(latency_s);
       break;
     case Outcome::kRefused:
@@ -60,7 +60,7 @@ void ChannelHealth::answered(const Answer& answer, double latency_s) {
       break;
   }
   if (answer.outcome == Outcome::kRefused || answer.outcome == Outcome::kFailed)
-    last_error_ = answer.list.status_text;
+    last_error_ = answer.status_text;
 }
 
 source_status_t ChannelHealth::snapshot(Clock::TimePoint now) {

@@ -4,6 +4,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <memory_resource>
 #include <string>
 #include <string_view>
 
@@ -39,7 +40,7 @@ struct Refusal {
   std::string text;
   std::int64_t utime = 0;
   std::int64_t seq = -1;
-  std::string frame_name;
+  std::pmr::string frame_name;
 };
 
 struct DecodeLimits {

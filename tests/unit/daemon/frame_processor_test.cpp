@@ -18,14 +18,29 @@
 namespace graspd {
 namespace {
 
+/// An answer with its list as a listener reads it.
+struct ReadAnswer {
+  explicit ReadAnswer(const Answer& answer)
+      : outcome(answer.outcome),
+        refusal(answer.refusal),
+        list(decode_handle_list(answer.list.bytes).value_or(handle_list_t{})) {
+    EXPECT_EQ(list.status_text, std::string_view(answer.status_text));
+    EXPECT_EQ(list.degraded != 0, answer.degraded);
+  }
+
+  Outcome outcome;
+  std::optional<RefusalReason> refusal;
+  handle_list_t list;
+};
+
 class FrameProcessorTest : public testing::Test {
  protected:
   [[nodiscard]] FrameMessage message(const Bytes& bytes) const {
-    return {peek_header(bytes, limits_), bytes, clock_.now()};
+    return {peek_header(bytes, limits_), {bytes.begin(), bytes.end()}, clock_.now()};
   }
-  [[nodiscard]] Answer process(const Bytes& bytes) const {
-    return FrameProcessor(source_, "CLOUD_7", limits_, clock_, 4)
-        .process(message(bytes), Effort::kFull, running_);
+  [[nodiscard]] ReadAnswer process(const Bytes& bytes) const {
+    return ReadAnswer(FrameProcessor(source_, "CLOUD_7", limits_, clock_, 4)
+                          .process(message(bytes), Effort::kFull, running_));
   }
 
 #ifdef __SANITIZE_THREAD__
@@ -48,7 +63,7 @@ void expect_consistent(const handle_list_t& list) {
 }
 
 TEST_F(FrameProcessorTest, ABoxOnATable) {
-  const Answer answer = process(cloud_message(5, box_on_table()));
+  const ReadAnswer answer = process(cloud_message(5, box_on_table()));
   EXPECT_EQ(answer.outcome, Outcome::kProcessed);
   expect_consistent(answer.list);
   EXPECT_EQ(answer.list.status, +handle_list_t::OK) << answer.list.status_text;
@@ -67,11 +82,11 @@ TEST_F(FrameProcessorTest, ABoxOnATable) {
 
 TEST_F(FrameProcessorTest, HandlesComeOutInTheNamedFrame) {
   const Bytes bytes = cloud_message(1, box_on_table());
-  const Answer plain = process(bytes);
+  const ReadAnswer plain = process(bytes);
   source_.sensor_pose.frame_name = "base";
   source_.sensor_pose.position_m = {1, 2, 3};
   source_.detect.workspace.T_box_cloud = source_.sensor_pose.T_target_cloud();
-  const Answer moved = process(bytes);
+  const ReadAnswer moved = process(bytes);
   EXPECT_EQ(moved.list.frame_name, "base");
   ASSERT_EQ(moved.list.num_handles, plain.list.num_handles);
   for (std::size_t i = 0; i < plain.list.handles.size(); ++i) {
@@ -84,7 +99,7 @@ TEST_F(FrameProcessorTest, HandlesComeOutInTheNamedFrame) {
 TEST_F(FrameProcessorTest, CloudsWithNothingInThem) {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   const auto status = [&](const Bytes& bytes) {
-    const Answer answer = process(bytes);
+    const ReadAnswer answer = process(bytes);
     EXPECT_EQ(answer.outcome, Outcome::kProcessed);
     expect_consistent(answer.list);
     EXPECT_EQ(answer.list.num_handles, 0);
@@ -100,7 +115,7 @@ TEST_F(FrameProcessorTest, CloudsWithNothingInThem) {
 }
 
 TEST_F(FrameProcessorTest, MessagesThatAreNone) {
-  const Answer none = process({});
+  const ReadAnswer none = process({});
   EXPECT_EQ(none.outcome, Outcome::kRefused);
   EXPECT_EQ(none.refusal, RefusalReason::kTruncated);
   EXPECT_EQ(none.list.status, +handle_list_t::REFUSED);
@@ -109,7 +124,7 @@ TEST_F(FrameProcessorTest, MessagesThatAreNone) {
 
   Bytes truncated = cloud_message(9, box_on_table());
   truncated.pop_back();
-  const Answer answer = process(truncated);
+  const ReadAnswer answer = process(truncated);
   EXPECT_EQ(answer.outcome, Outcome::kRefused);
   EXPECT_EQ(answer.list.seq, 9);
   EXPECT_EQ(answer.list.frame_name, "camera");
@@ -119,7 +134,7 @@ TEST_F(FrameProcessorTest, MessagesThatAreNone) {
 TEST_F(FrameProcessorTest, TooManyPointsAreRefused) {
   limits_.max_points = 100;
   EXPECT_EQ(process(cloud_message(1, uniform_cloud(100, 0.5f))).outcome, Outcome::kProcessed);
-  const Answer answer = process(cloud_message(1, uniform_cloud(101, 0.5f)));
+  const ReadAnswer answer = process(cloud_message(1, uniform_cloud(101, 0.5f)));
   EXPECT_EQ(answer.outcome, Outcome::kRefused);
   EXPECT_EQ(answer.refusal, RefusalReason::kTooLarge);
 }
@@ -127,8 +142,8 @@ TEST_F(FrameProcessorTest, TooManyPointsAreRefused) {
 TEST_F(FrameProcessorTest, ACancelledFrameIsDropped) {
   const std::atomic<bool> cancelled{true};
   const FrameProcessor processor(source_, "CLOUD_7", limits_, clock_, 4);
-  const Answer answer =
-      processor.process(message(cloud_message(4, box_on_table())), Effort::kFull, cancelled);
+  const ReadAnswer answer(
+      processor.process(message(cloud_message(4, box_on_table())), Effort::kFull, cancelled));
   EXPECT_EQ(answer.outcome, Outcome::kDropped);
   EXPECT_EQ(answer.list.status, +handle_list_t::OVERLOADED);
   EXPECT_EQ(answer.list.seq, 4);
@@ -140,8 +155,8 @@ TEST_F(FrameProcessorTest, LessEffortIsSeenInTheAnswer) {
   source_.degrade.voxel_m = 0.006;
   const FrameProcessor processor(source_, "CLOUD_7", limits_, clock_, 4);
   const FrameMessage frame = message(cloud_message(5, box_on_table()));
-  const Answer full = processor.process(frame, Effort::kFull, running_);
-  const Answer degraded = processor.process(frame, Effort::kDegraded, running_);
+  const ReadAnswer full(processor.process(frame, Effort::kFull, running_));
+  const ReadAnswer degraded(processor.process(frame, Effort::kDegraded, running_));
   expect_consistent(degraded.list);
   EXPECT_EQ(full.list.degraded, 0);
   EXPECT_EQ(degraded.list.degraded, 1);
@@ -154,8 +169,8 @@ TEST_F(FrameProcessorTest, LessEffortIsSeenInTheAnswer) {
 
 TEST_F(FrameProcessorTest, LessEffortIsTheSameWhereNoneIsConfigured) {
   const FrameProcessor processor(source_, "CLOUD_7", limits_, clock_, 4);
-  const Answer answer =
-      processor.process(message(cloud_message(5, box_on_table())), Effort::kDegraded, running_);
+  const ReadAnswer answer(
+      processor.process(message(cloud_message(5, box_on_table())), Effort::kDegraded, running_));
   EXPECT_EQ(answer.list.degraded, 0);
 }
 
@@ -184,7 +199,8 @@ class FailingClock final : public Clock {
 TEST_F(FrameProcessorTest, AnExceptionBecomesAFailedAnswer) {
   const FailingClock failing;
   const FrameProcessor processor(source_, "CLOUD_7", limits_, failing, 4);
-  const Answer answer = processor.process(message(cloud_message(6, box_on_table())), Effort::kFull, running_);
+  const ReadAnswer answer(
+      processor.process(message(cloud_message(6, box_on_table())), Effort::kFull, running_));
   EXPECT_EQ(answer.outcome, Outcome::kFailed);
   EXPECT_EQ(answer.list.status, +handle_list_t::FAILED);
   EXPECT_EQ(answer.list.status_text, "out of time");

@@ -20,7 +20,7 @@ Answer answer(Outcome outcome, std::optional<RefusalReason> refusal = std::nullo
   Answer a{};
   a.outcome = outcome;
   a.refusal = refusal;
-  a.list.status_text = text;
+  a.status_text = text;
   return a;
 }
 
@@ -47,7 +47,7 @@ TEST(ChannelHealth, CountsEveryOutcome) {
   static_cast<void>(health.snapshot(clock.now()));
   for (const int seq : {10, 11, 14, -1, 15, 16, 17}) health.received(seq, clock.now());
   Answer coarse = answer(Outcome::kProcessed);
-  coarse.list.degraded = 1;
+  coarse.degraded = true;
   health.answered(coarse, 0.020);
   health.answered(answer(Outcome::kFailed, std::nullopt, "bad luck"), 0.030);
   health.answered(dropped(DropReason::kNewerFrame), 9);

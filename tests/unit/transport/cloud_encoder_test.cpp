@@ -98,7 +98,7 @@ TEST(CloudEncoder, BuffersAreReused) {
 }
 
 TEST(CloudEncoder, NamesEndAtANulInside) {
-  const FrameHeader header{1, 2, std::string("ab\0cd", 5)};
+  const FrameHeader header{1, 2, std::pmr::string("ab\0cd", 5)};
   EXPECT_EQ(decoded(encode(make_point_cloud(header, {}))).frame_name, "ab");
 }
 

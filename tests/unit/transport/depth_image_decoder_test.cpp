@@ -20,7 +20,7 @@ constexpr std::int32_t kMax32 = std::numeric_limits<std::int32_t>::max();
 void expect_same(const Frame& frame, const depth_image_t& oracle) {
   EXPECT_EQ(frame.utime, oracle.utime);
   EXPECT_EQ(frame.seq, oracle.seq);
-  EXPECT_EQ(frame.frame_name, oracle.frame_name);
+  EXPECT_EQ(std::string_view(frame.frame_name), oracle.frame_name);
   ASSERT_EQ(frame.cloud.width, oracle.width);
   ASSERT_EQ(frame.cloud.height, oracle.height);
   ASSERT_EQ(frame.cloud.size(), oracle.data.size() / 2);

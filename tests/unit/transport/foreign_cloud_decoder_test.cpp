@@ -57,7 +57,7 @@ TEST_P(ForeignCloudDecoder, EqualsWhatGeneratedCodeEncoded) {
     const Frame frame = decoded(GetParam().encode(cloud));
     EXPECT_EQ(frame.utime, cloud.utime);
     EXPECT_EQ(frame.seq, GetParam().has_seq ? cloud.seq : -1);
-    EXPECT_EQ(frame.frame_name, cloud.frame_name);
+    EXPECT_EQ(std::string_view(frame.frame_name), cloud.frame_name);
     EXPECT_TRUE(frame.cloud.viewpoint.isZero(0));
     ASSERT_EQ(frame.cloud.size(), static_cast<std::size_t>(cloud.width * cloud.height));
     EXPECT_EQ(frame.cloud.width, GetParam().is_packed ? cloud.width : cloud.width * cloud.height);

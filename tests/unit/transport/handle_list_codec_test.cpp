@@ -78,7 +78,8 @@ TEST(HandleListCodec, CountsThatLieAreRefusedOrThrow) {
   }
 }
 
-TEST(HandleListCodec, ListSaysWhatTheDetectionFound) {
+/// Two handles and some failures.
+Detection some_detection() {
   Detection detection;
   detection.status = DetectionStatus::kOk;
   detection.points_in = 5;
@@ -90,11 +91,63 @@ TEST(HandleListCodec, ListSaysWhatTheDetectionFound) {
   detection.candidate_failures[static_cast<std::size_t>(Failure::kPalm)] = 7;
   detection.candidate_failures[static_cast<std::size_t>(Failure::kTooWide)] = 8;
   detection.handles = {some_handle(9), some_handle(4)};
+  return detection;
+}
+
+HandleListHeader some_header() {
+  return {11,
+          12,
+          "CLOUD",
+          "camera",
+          handle_list_t::OK,
+          "text",
+          6,
+          0.004,
+          true,
+          0.25,
+          {{"normals", 1.5}, {"growing", 2.5}}};
+}
+
+Gripper some_gripper() {
   Gripper gripper;
   gripper.name = "test";
   gripper.min_gap_m = 0.017f;
-  const HandleListHeader header{11, 12,    "CLOUD", "camera", wire_status(detection.status),       "text",
-                                6,  0.004, true,    0.25,     {{"normals", 1.5}, {"growing", 2.5}}};
+  return gripper;
+}
+
+Bytes bytes_of(const HandleListMessage& message) {
+  return {message.bytes.begin(), message.bytes.end()};
+}
+
+TEST(HandleListCodec, WhatIsWrittenStraightEqualsTheList) {
+  const Detection detection = some_detection();
+  const Eigen::Isometry3f T =
+      Eigen::Translation3f(1, 2, 3) * Eigen::AngleAxisf(0.7f, Eigen::Vector3f(3, 1, 2).normalized());
+  HandleListMessage message;
+  for (const Detection& d : {detection, Detection{}, detection}) {  // the buffer is kept
+    encode(some_header(), some_gripper(), d, T, message);
+    EXPECT_EQ(bytes_of(message), encode(make_handle_list(some_header(), some_gripper(), d, T)));
+  }
+  HandleListHeader late = some_header();
+  late.latency_s = 0.75;
+  message.set_latency(0.75);
+  EXPECT_EQ(bytes_of(message), encode(make_handle_list(late, some_gripper(), detection, T)));
+}
+
+TEST(HandleListCodec, TextEndsAtItsNulOnEitherWay) {
+  HandleListHeader header = some_header();
+  header.frame_name = std::string_view("ab\0cd", 5);
+  HandleListMessage message;
+  encode(header, some_gripper(), {}, Eigen::Isometry3f::Identity(), message);
+  EXPECT_EQ(bytes_of(message),
+            encode(make_handle_list(header, some_gripper(), {}, Eigen::Isometry3f::Identity())));
+  EXPECT_EQ(decode_handle_list(message.bytes)->frame_name, "ab");
+}
+
+TEST(HandleListCodec, ListSaysWhatTheDetectionFound) {
+  const Detection detection = some_detection();
+  const HandleListHeader header = some_header();
+  const Gripper gripper = some_gripper();
   const auto list =
       decode_handle_list(encode(make_handle_list(header, gripper, detection, Eigen::Isometry3f::Identity())));
   ASSERT_TRUE(list.has_value());

@@ -30,7 +30,7 @@ std::uint32_t bits_at(const std::vector<std::uint8_t>& data, std::size_t offset)
 void expect_same(const Frame& frame, const point_cloud_t& oracle) {
   EXPECT_EQ(frame.utime, oracle.utime);
   EXPECT_EQ(frame.seq, oracle.seq);
-  EXPECT_EQ(frame.frame_name, oracle.frame_name);
+  EXPECT_EQ(std::string_view(frame.frame_name), oracle.frame_name);
   EXPECT_EQ(frame.cloud.width, oracle.width);
   EXPECT_EQ(frame.cloud.height, oracle.height);
   for (int axis = 0; axis < 3; ++axis) {
