@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "service/pipeline/point_kernels.hpp"
 
@@ -66,11 +67,65 @@ Eigen::Vector3f sum_of_directions(const PointCloud& cloud) {
   return sum;
 }
 
+/// The smallest and the largest column with a point in it.
+std::pair<std::uint32_t, std::uint32_t> column_range(const ImagePixels& pixels) {
+  const auto width = static_cast<std::uint32_t>(pixels.width);
+  const std::uint32_t *point = pixels.of_point.data(), *end = point + pixels.of_point.size();
+  std::uint32_t first = width - 1, last = 0;
+  while (point != end) {
+    const std::uint32_t row = *point / width * width;
+    first = std::min(first, *point - row);
+    point = std::lower_bound(point, end, row + width);
+    last = std::max(last, *(point - 1) - row);
+  }
+  return {first, last};
+}
+
 }  // namespace
 
-DepthMap::DepthMap(const PointCloud& cloud)
+DepthMap::DepthMap(const PointCloud& cloud, const ImagePixels& pixels)
     : viewpoint_(cloud.viewpoint), to_view_(Eigen::Matrix3f::Identity()) {
   if (cloud.empty()) return;
+  if (const auto camera = fit_pinhole(cloud, pixels))
+    take_image(cloud, pixels, *camera);
+  else
+    render(cloud);
+}
+
+/// Rows before the first point's and after the last one's are left out: nothing is seen there.
+void DepthMap::take_image(const PointCloud& cloud, const ImagePixels& pixels, const PinholeModel& camera) {
+  const auto width = static_cast<std::uint32_t>(pixels.width);
+  const std::uint32_t max_gap = static_cast<std::uint32_t>(std::max(pixels.width, pixels.height)) / 10,
+                      first_row = pixels.of_point.front() / width, last_row = pixels.of_point.back() / width;
+  width_ = pixels.width;
+  height_ = static_cast<int>(last_row - first_row) + 1;
+  focal_u_ = camera.fx_px;
+  focal_v_ = camera.fy_px;
+  center_u_ = camera.cx_px;
+  center_v_ = camera.cy_px - static_cast<float>(first_row);
+  depth_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+  point_.resize(depth_.size());
+  std::uint32_t next = 0;  // the first pixel that is not set
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const std::uint32_t at = pixels.of_point[i] - first_row * width;
+    depth_[at] = cloud.z[i] - viewpoint_.z();
+    point_[at] = static_cast<std::int32_t>(i);
+    if (at != next) {
+      const bool is_in_row = next % width != 0 && next / width == at / width;
+      if (is_in_row && at - next < max_gap)
+        close_gap(next, at);
+      else
+        fill(next, at, 0, kFree);
+    }
+    next = at + 1;
+  }
+  fill(next, depth_.size(), 0, kFree);
+  const auto [first_column, last_column] = column_range(pixels);
+  const auto seen = static_cast<float>(last_column - first_column + 1) * static_cast<float>(height_);
+  point_area_ = seen / (static_cast<float>(cloud.size()) * focal_u_ * focal_v_);
+}
+
+void DepthMap::render(const PointCloud& cloud) {
   const Eigen::Vector3f sum = sum_of_directions(cloud);
   if (sum.norm() < 1e-3f) return;
   to_view_ = looking_along(sum.normalized());
@@ -98,13 +153,15 @@ DepthMap::DepthMap(const PointCloud& cloud)
   // Points on nearly one ray would have pixels beyond all numbers.
   constexpr float kMinSide = 1e-6f;
   const float area = std::max((right - left) * (bottom - top), kMinSide * kMinSide);
-  focal_ = std::sqrt(static_cast<float>(cloud.size()) / area);
-  focal_ =
-      std::min(focal_, static_cast<float>(kMaxSide - 4) / std::max({right - left, bottom - top, kMinSide}));
-  width_ = static_cast<int>(focal_ * (right - left)) + 3;
-  height_ = static_cast<int>(focal_ * (bottom - top)) + 3;
-  center_u_ = 1 - focal_ * left;
-  center_v_ = 1 - focal_ * top;
+  const float focal =
+      std::min(std::sqrt(static_cast<float>(cloud.size()) / area),
+               static_cast<float>(kMaxSide - 4) / std::max({right - left, bottom - top, kMinSide}));
+  focal_u_ = focal_v_ = focal;
+  point_area_ = 1 / (focal * focal);
+  width_ = static_cast<int>(focal * (right - left)) + 3;
+  height_ = static_cast<int>(focal * (bottom - top)) + 3;
+  center_u_ = 1 - focal * left;
+  center_v_ = 1 - focal * top;
   splat(cloud);
   close_gaps(std::max(width_, height_) / 10);
 }
@@ -132,30 +189,33 @@ void DepthMap::splat(const PointCloud& cloud) {
   }
 }
 
-/// Gaps in a row take the farther of their two ends: shadows of a projector lie on what is behind.
 void DepthMap::close_gaps(int max_gap) {
   for (int v = 0; v < height_; ++v) {
     const std::size_t row = static_cast<std::size_t>(v) * static_cast<std::size_t>(width_);
     int last = -1;
     for (int u = 0; u < width_; ++u) {
-      const std::size_t k = row + static_cast<std::size_t>(u);
-      if (depth_[k] == 0) continue;
-      if (last >= 0 && u - last > 1 && u - last <= max_gap) {
-        const std::size_t from = row + static_cast<std::size_t>(last);
-        const std::size_t far = depth_[k] > depth_[from] ? k : from;
-        std::fill(depth_.begin() + static_cast<std::ptrdiff_t>(from) + 1,
-                  depth_.begin() + static_cast<std::ptrdiff_t>(k), depth_[far]);
-        std::fill(point_.begin() + static_cast<std::ptrdiff_t>(from) + 1,
-                  point_.begin() + static_cast<std::ptrdiff_t>(k), point_[far]);
-      }
+      if (depth_[row + static_cast<std::size_t>(u)] == 0) continue;
+      if (last >= 0 && u - last > 1 && u - last <= max_gap)
+        close_gap(row + static_cast<std::size_t>(last) + 1, row + static_cast<std::size_t>(u));
       last = u;
     }
   }
 }
 
+/// Gaps take the farther of their two ends: shadows of a projector lie on what is behind.
+void DepthMap::close_gap(std::size_t from, std::size_t to) {
+  const std::size_t far = depth_[to] > depth_[from - 1] ? to : from - 1;
+  fill(from, to, depth_[far], point_[far]);
+}
+
+void DepthMap::fill(std::size_t from, std::size_t to, float depth, std::int32_t point) {
+  std::fill(depth_.data() + from, depth_.data() + to, depth);
+  std::fill(point_.data() + from, point_.data() + to, point);
+}
+
 float DepthMap::ray_area(const Eigen::Vector3f& p) const {
   const float depth = to_view_.row(2).dot(p - viewpoint_);
-  return depth * depth / (focal_ * focal_);
+  return depth * depth * point_area_;
 }
 
 std::int32_t DepthMap::hider_at(std::int64_t pixel, float depth, float margin_m) const {

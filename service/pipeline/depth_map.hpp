@@ -1,20 +1,20 @@
 // SPDX-FileCopyrightText: 2026 The graspd authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What the sensor saw: a depth image rendered from the cloud, to tell free space from hidden space. It is
-// made the same way from organized and unorganized clouds.
+// What the sensor saw: a depth image, to tell free space from hidden space. It is the cloud's own image where
+// the points are known to be one, else it is rendered from them.
 #pragma once
 #include <Eigen/Geometry>
 #include <cstdint>
-#include <vector>
 
+#include "service/pipeline/pinhole_fit.hpp"
 #include "service/pipeline/point_cloud.hpp"
 
 namespace graspd {
 
 class DepthMap {
  public:
-  /// All points must be finite.
-  explicit DepthMap(const PointCloud& cloud);
+  /// All points must be finite. pixels: of the cloud's points, where it is part of an image.
+  explicit DepthMap(const PointCloud& cloud, const ImagePixels& pixels = {});
 
   static constexpr std::int32_t kFree = -1;
 
@@ -33,11 +33,16 @@ class DepthMap {
   [[nodiscard]] float ray_area(const Eigen::Vector3f& p) const;
 
  private:
+  void take_image(const PointCloud& cloud, const ImagePixels& pixels, const PinholeModel& camera);
+  void render(const PointCloud& cloud);
   void splat(const PointCloud& cloud);
   void close_gaps(int max_gap);
+  /// Pixels [from, to) of a row, where nothing is seen, between two where something is.
+  void close_gap(std::size_t from, std::size_t to);
+  void fill(std::size_t from, std::size_t to, float depth, std::int32_t point);
   /// Where a point with these coordinates in the axes of the view falls on the image [pixels].
-  [[nodiscard]] float column(float x, float z) const { return focal_ * x / z + center_u_ + 0.5f; }
-  [[nodiscard]] float row(float y, float z) const { return focal_ * y / z + center_v_ + 0.5f; }
+  [[nodiscard]] float column(float x, float z) const { return focal_u_ * x / z + center_u_ + 0.5f; }
+  [[nodiscard]] float row(float y, float z) const { return focal_v_ * y / z + center_v_ + 0.5f; }
   /// Position of that pixel in the image; negative outside of it and behind the sensor.
   [[nodiscard]] std::int64_t pixel(float column, float row, float depth) const {
     const bool is_inside = depth > 0 && column >= 0 && row >= 0 && column < static_cast<float>(width_) &&
@@ -49,9 +54,10 @@ class DepthMap {
   Eigen::Vector3f viewpoint_;
   Eigen::Matrix3f to_view_;  // rows: right, down, forward
   int width_ = 0, height_ = 0;
-  float focal_ = 1, center_u_ = 0, center_v_ = 0;
-  std::vector<float> depth_;         // 0: nothing seen
-  std::vector<std::int32_t> point_;  // that the depth is of
+  float focal_u_ = 1, focal_v_ = 1, center_u_ = 0, center_v_ = 0;
+  float point_area_ = 1;           // that a point stands for at depth 1
+  RawVector<float> depth_;         // 0: nothing seen
+  RawVector<std::int32_t> point_;  // that the depth is of
 };
 
 }  // namespace graspd

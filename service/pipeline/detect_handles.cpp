@@ -43,7 +43,7 @@ Detection detect_handles(const PointCloud& cloud, const Gripper& gripper, const 
   // Beside the surfaces, many of whose stages leave threads free.
   std::optional<PointIndex> index;
   Surfaces surfaces;
-  tbb::parallel_invoke([&] { index.emplace(kept.cloud); },
+  tbb::parallel_invoke([&] { index.emplace(kept.cloud, kept.pixels); },
                        [&] { surfaces = find_surfaces(kept.cloud, config, done); });
   done("index");
   detection.points_used = static_cast<int>(surfaces.cloud.size());

@@ -137,7 +137,8 @@ HandleCheckConfig coarse_limits(HandleCheckConfig limits) {
 
 }  // namespace
 
-PointIndex::PointIndex(const PointCloud& cloud) : depth_map(cloud), query(cloud, kPointCell) {}
+PointIndex::PointIndex(const PointCloud& cloud, const ImagePixels& pixels)
+    : depth_map(cloud, pixels), query(cloud, kPointCell) {}
 
 GuessSearch::GuessSearch(const CheckedScene& scene, const Objects& objects, const Gripper& gripper,
                          const DetectConfig& config)

@@ -20,7 +20,7 @@ struct PointIndex {
   DepthMap depth_map;
   BoxQuery query;
 
-  explicit PointIndex(const PointCloud& cloud);
+  explicit PointIndex(const PointCloud& cloud, const ImagePixels& pixels = {});
 };
 
 /// The cloud in both resolutions. References must outlive it.

@@ -13,9 +13,10 @@ struct Kept {
   int finite = 0, inside = 0;
 };
 
-/// Copies the points from [begin, end) that are wanted to kept, from begin on.
+/// Copies the points from [begin, end) that are wanted to kept, from begin on, and the positions they had to
+/// positions where that is not null.
 Kept keep_inside(const PointCloud& cloud, const WorkspaceFilterConfig& config, std::size_t begin,
-                 std::size_t end, PointCloud& kept) {
+                 std::size_t end, PointCloud& kept, std::uint32_t* positions) {
   const float nearest = config.min_range_m * config.min_range_m;
   const float farthest = config.max_range_m * config.max_range_m;
   const Eigen::Matrix3f R = config.T_box_cloud.linear();
@@ -42,6 +43,13 @@ Kept keep_inside(const PointCloud& cloud, const WorkspaceFilterConfig& config, s
                   int{u <= hi.x()} & int{v >= lo.y()} & int{v <= hi.y()} & int{w >= lo.z()} &
                   int{w <= hi.z()};
     }
+    if (positions != nullptr) {
+      std::uint32_t* next = positions + n;
+      for (std::size_t k = 0; k < size; ++k) {
+        *next = static_cast<std::uint32_t>(begin + k);
+        next += inside[k];
+      }
+    }
     for (std::size_t k = 0; k < size; ++k) {
       kept.x[n] = xs[k];
       kept.y[n] = ys[k];
@@ -51,6 +59,11 @@ Kept keep_inside(const PointCloud& cloud, const WorkspaceFilterConfig& config, s
     }
   }
   return count;
+}
+
+bool is_image(const PointCloud& cloud) {
+  return cloud.width > 1 && cloud.height > 1 &&
+         static_cast<std::size_t>(cloud.width) * static_cast<std::size_t>(cloud.height) == cloud.size();
 }
 
 }  // namespace
@@ -69,20 +82,28 @@ WorkspaceResult filter_workspace(const PointCloud& cloud, const WorkspaceFilterC
   PointCloud& kept = result.cloud;
   kept.viewpoint = cloud.viewpoint;
   kept.resize(cloud.size());
+  auto& positions = result.pixels.of_point;
+  if (is_image(cloud)) {
+    result.pixels.width = cloud.width;
+    result.pixels.height = cloud.height;
+    positions.resize(cloud.size());
+  }
   std::vector<Kept> counts((cloud.size() + kChunk - 1) / kChunk);
   tbb::parallel_for(std::size_t{0}, counts.size(), [&](std::size_t c) {
-    counts[c] = keep_inside(cloud, config, c * kChunk, std::min((c + 1) * kChunk, cloud.size()), kept);
+    counts[c] = keep_inside(cloud, config, c * kChunk, std::min((c + 1) * kChunk, cloud.size()), kept,
+                            positions.empty() ? nullptr : positions.data());
   });
   std::size_t n = 0;
   for (std::size_t c = 0; c < counts.size(); ++c) {
-    const auto from = static_cast<std::ptrdiff_t>(c * kChunk);
-    for (std::vector<float>* v : {&kept.x, &kept.y, &kept.z})
-      std::copy_n(v->begin() + from, counts[c].inside, v->begin() + static_cast<std::ptrdiff_t>(n));
-    n += static_cast<std::size_t>(counts[c].inside);
-    result.num_finite += counts[c].finite;
+    const auto inside = static_cast<std::size_t>(counts[c].inside);
+    for (float* v : {kept.x.data(), kept.y.data(), kept.z.data()}) std::copy_n(v + c * kChunk, inside, v + n);
+    if (!positions.empty()) std::copy_n(positions.data() + c * kChunk, inside, positions.data() + n);
+    n += inside;
+    result.num_finite += static_cast<std::size_t>(counts[c].finite);
   }
   kept.resize(n);
   kept.width = static_cast<int>(n);
+  if (!positions.empty()) positions.resize(n);
   return result;
 }
 

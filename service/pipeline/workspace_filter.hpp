@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "service/pipeline/config_fields.hpp"
+#include "service/pipeline/pinhole_fit.hpp"
 #include "service/pipeline/point_cloud.hpp"
 
 namespace graspd {
@@ -36,6 +37,7 @@ struct WorkspaceFilterConfig {
 /// The points that are left, unorganized, in the order of the cloud.
 struct WorkspaceResult {
   PointCloud cloud;
+  ImagePixels pixels;          ///< of these points, where the input is organized
   std::size_t num_finite = 0;  ///< of the input
 };
 

@@ -37,6 +37,10 @@ void expect_same_grips(const Detection& a, const Detection& b) {
   EXPECT_LE(best.width_m, tolerance.width_m);
 }
 
+AnalyticScene in_optical_frame(const AnalyticScene& scene) {
+  return moved(scene, scene.camera.T_scene_camera.inverse());
+}
+
 TEST(DetectInvariance, OrderOfThePoints) {
   for (const AnalyticScene& scene : {three_objects(), bottle_beside_box()}) {
     const PointCloud cloud = render(scene).cloud;
@@ -52,6 +56,14 @@ TEST(DetectInvariance, OrganizedOrNot) {
   // The same points in the same order: only the number of points that came in may differ.
   b.points_in = a.points_in;
   EXPECT_TRUE(same_bits(a, b));
+}
+
+/// In the optical frame the image tells what was seen; without it that is rendered.
+TEST(DetectInvariance, OrganizedInTheOpticalFrameOrNot) {
+  for (const AnalyticScene& scene : {three_objects(), bottle_beside_box()}) {
+    const PointCloud organized = render(in_optical_frame(scene)).cloud;
+    expect_same_grips(detect(organized), detect(finite_points(organized)));
+  }
 }
 
 TEST(DetectInvariance, MissingPointsBetweenTheOthers) {
@@ -132,7 +144,8 @@ TEST(DetectInvariance, MotionByWholeVoxelsMovesTheHandles) {
 }
 
 TEST(DetectInvariance, NumberOfThreads) {
-  for (const AnalyticScene& scene : {spread_objects(), bottle_beside_box()}) {
+  for (const AnalyticScene& scene :
+       {spread_objects(), bottle_beside_box(), in_optical_frame(bottle_beside_box())}) {
     const PointCloud cloud = with_range_noise(render(scene).cloud, 0.0007f, 1);
     std::vector<Detection> detections;
     for (const int threads : {1, 2, 4}) {

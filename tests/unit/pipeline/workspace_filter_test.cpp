@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <numbers>
 
@@ -118,6 +119,23 @@ TEST(WorkspaceFilterConfig, EmptyWorkspacesAreRefused) {
   config = {};
   config.min_m.x() = kNan;
   EXPECT_TRUE(config.validate());
+}
+
+TEST(WorkspaceFilter, TellsWhichPixelsOfAnImageTheKeptPointsAre) {
+  PointCloud cloud = random_cloud(std::size_t{300} * 230, {-1, -1, 0.2f}, {1, 1, 1}, 3);  // several chunks
+  cloud.width = 300;
+  cloud.height = 230;
+  for (std::size_t i = 0; i < cloud.size(); i += 7) cloud.y[i] = kNan;
+  const WorkspaceResult result = filter_workspace(cloud, box({-0.5f, -1, 0}, {1, 1, 1}));
+  EXPECT_EQ(result.pixels.width, 300);
+  EXPECT_EQ(result.pixels.height, 230);
+  ASSERT_EQ(result.pixels.of_point.size(), result.cloud.size());
+  EXPECT_TRUE(std::is_sorted(result.pixels.of_point.begin(), result.pixels.of_point.end()));
+  for (std::size_t i = 0; i < result.cloud.size(); ++i)
+    ASSERT_EQ(result.cloud.point(i), cloud.point(result.pixels.of_point[i]));
+  cloud.width = 300 * 230;
+  cloud.height = 1;
+  EXPECT_TRUE(filter_workspace(cloud, {}).pixels.of_point.empty());
 }
 
 }  // namespace
