@@ -7,8 +7,6 @@
 #include <algorithm>
 #include <array>
 
-#include "service/pipeline/cell_order.hpp"
-
 namespace graspd {
 namespace {
 
@@ -86,27 +84,30 @@ void wanted_points(std::span<const std::uint32_t> cell, const std::vector<std::u
 
 }  // namespace
 
-Neighborhoods find_neighborhoods(const PointCloud& cloud, const NeighborhoodsConfig& config,
-                                 const std::vector<std::uint8_t>& skip) {
+NeighborhoodSearch::NeighborhoodSearch(const PointCloud& cloud, const NeighborhoodsConfig& config)
+    : cloud_(cloud),
+      radius_m_(config.radius_m),
+      order_(order_by_cell(cloud, config.radius_m)),
+      points_(cloud, order_.points) {}
+
+Neighborhoods NeighborhoodSearch::find(const std::vector<std::uint8_t>& skip) const {
   Neighborhoods result;
-  result.lists_.resize(cloud.size());
-  const CellOrder order = order_by_cell(cloud, config.radius_m);
-  const PaddedPoints points(cloud, order.points);
+  result.lists_.resize(cloud_.size());
   constexpr std::size_t kCellsPerChunk = 128;
-  const std::size_t num_chunks = (order.num_cells() + kCellsPerChunk - 1) / kCellsPerChunk;
+  const std::size_t num_chunks = (order_.num_cells() + kCellsPerChunk - 1) / kCellsPerChunk;
   result.storage_.resize(num_chunks);
-  const float radius_squared = config.radius_m * config.radius_m;
+  const float radius_squared = radius_m_ * radius_m_;
   const PointKernels& kernels = point_kernels();
 
   tbb::parallel_for(std::size_t{0}, num_chunks, [&](std::size_t chunk) {
     const std::size_t begin = chunk * kCellsPerChunk;
-    const std::size_t end = std::min(begin + kCellsPerChunk, order.num_cells());
-    RowCursor cursor(order, points, begin);
+    const std::size_t end = std::min(begin + kCellsPerChunk, order_.num_cells());
+    RowCursor cursor(order_, points_, begin);
     RawVector<std::uint32_t>& list = result.storage_[chunk];
     std::vector<std::uint32_t> wanted, done;
     std::vector<std::size_t> ends{0};
     for (std::size_t c = begin; c < end; ++c) {
-      wanted_points(order.cell(c), skip, wanted);
+      wanted_points(order_.cell(c), skip, wanted);
       if (wanted.empty()) continue;
       cursor.move_to(c);
       const PointRange around = cursor.around();
@@ -115,8 +116,8 @@ Neighborhoods find_neighborhoods(const PointCloud& cloud, const NeighborhoodsCon
       for (const std::uint32_t i : wanted) {
         const std::size_t from = ends.back();
         done.push_back(i);
-        ends.push_back(from + kernels.keep_near({cloud.x[i], cloud.y[i], cloud.z[i]}, radius_squared, around,
-                                                list.data() + from));
+        ends.push_back(from + kernels.keep_near({cloud_.x[i], cloud_.y[i], cloud_.z[i]}, radius_squared,
+                                                around, list.data() + from));
       }
     }
     if (!list.empty()) std::fill_n(list.data() + ends.back(), kPointPadding, 0u);
@@ -125,6 +126,11 @@ Neighborhoods find_neighborhoods(const PointCloud& cloud, const NeighborhoodsCon
       result.lists_[done[k]] = {list.data() + ends[k], list.data() + ends[k + 1]};
   });
   return result;
+}
+
+Neighborhoods find_neighborhoods(const PointCloud& cloud, const NeighborhoodsConfig& config,
+                                 const std::vector<std::uint8_t>& skip) {
+  return NeighborhoodSearch(cloud, config).find(skip);
 }
 
 }  // namespace graspd

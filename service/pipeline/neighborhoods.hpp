@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "service/pipeline/cell_order.hpp"
 #include "service/pipeline/config_fields.hpp"
 #include "service/pipeline/point_cloud.hpp"
 #include "service/pipeline/raw_vector.hpp"
@@ -30,14 +31,29 @@ class Neighborhoods {
   [[nodiscard]] std::span<const std::uint32_t> of(std::size_t point) const { return lists_[point]; }
 
  private:
-  friend Neighborhoods find_neighborhoods(const PointCloud&, const NeighborhoodsConfig&,
-                                          const std::vector<std::uint8_t>&);
+  friend class NeighborhoodSearch;
   std::vector<std::span<const std::uint32_t>> lists_;
   std::vector<RawVector<std::uint32_t>> storage_;
 };
 
-/// All points must be finite. The order within a list is fixed by the points' positions. skip: 1 for each
-/// point whose own neighbourhood is not wanted (it still is a neighbour of others); may be empty.
+/// Finds neighbourhoods of some points of a cloud after others.
+class NeighborhoodSearch {
+ public:
+  /// All points must be finite; the cloud must outlive the search.
+  NeighborhoodSearch(const PointCloud& cloud, const NeighborhoodsConfig& config);
+
+  /// The order within a list is fixed by the points' positions. skip: 1 for each point whose own
+  /// neighbourhood is not wanted (it still is a neighbour of others); may be empty.
+  [[nodiscard]] Neighborhoods find(const std::vector<std::uint8_t>& skip = {}) const;
+
+ private:
+  const PointCloud& cloud_;
+  float radius_m_;
+  CellOrder order_;
+  PaddedPoints points_;
+};
+
+/// The same for once.
 [[nodiscard]] Neighborhoods find_neighborhoods(const PointCloud& cloud, const NeighborhoodsConfig& config,
                                                const std::vector<std::uint8_t>& skip = {});
 

@@ -11,16 +11,38 @@
 #include <numbers>
 #include <random>
 
-#include "service/pipeline/downsample.hpp"
-#include "service/pipeline/neighborhoods.hpp"
-#include "service/pipeline/normals.hpp"
+#include "service/pipeline/coarse_surface.hpp"
 #include "service/pipeline/union_find.hpp"
 
 namespace graspd {
 namespace {
 
 constexpr std::size_t kSampleSize = 2000;    // points that hypotheses are scored on
+constexpr std::size_t kFewTimes = 5;         // as many: all are prepared at once, most will be needed
 constexpr std::size_t kScatterSize = 10000;  // points that the scatter is measured on
+
+/// Of each point of a cloud.
+RawVector<float> heights_above(const Plane& plane, const PointCloud& cloud) {
+  const float nx = plane.normal.x(), ny = plane.normal.y(), nz = plane.normal.z(), offset = plane.offset_m;
+  const float *x = cloud.x.data(), *y = cloud.y.data(), *z = cloud.z.data();
+  RawVector<float> heights(cloud.size());
+  float* height = heights.data();
+  // Summed as Plane::height() does it.
+  for (std::size_t i = 0; i < heights.size(); ++i) height[i] = nx * x[i] + (ny * y[i] + nz * z[i]) + offset;
+  return heights;
+}
+
+std::vector<std::uint8_t> points_above(const RawVector<float>& heights, float lowest_m) {
+  std::vector<std::uint8_t> is_above(heights.size());
+  for (std::size_t i = 0; i < heights.size(); ++i) is_above[i] = heights[i] > lowest_m ? 1 : 0;
+  return is_above;
+}
+
+std::vector<std::uint8_t> points_within(const RawVector<float>& heights, float distance_m) {
+  std::vector<std::uint8_t> is_within(heights.size());
+  for (std::size_t i = 0; i < heights.size(); ++i) is_within[i] = std::abs(heights[i]) < distance_m ? 1 : 0;
+  return is_within;
+}
 
 struct Sample {
   PointCloud points;
@@ -28,14 +50,17 @@ struct Sample {
 };
 
 /// Every k-th point: voxels are spread evenly over surfaces, so that this is too.
-Sample thin_out(const PointCloud& cloud, const Normals& normals) {
+Sample thin_out(CoarseSurface& coarse) {
+  const std::size_t step = std::max<std::size_t>(1, coarse.size() / kSampleSize);
+  std::vector<std::uint8_t> wanted(coarse.size(), step < kFewTimes ? 1 : 0);
+  for (std::size_t i = 0; i < coarse.size(); i += step) wanted[i] = 1;
+  coarse.prepare(wanted);
   Sample sample;
-  const std::size_t step = std::max<std::size_t>(1, cloud.size() / kSampleSize);
-  for (std::size_t i = 0; i < cloud.size(); i += step) {
-    sample.points.push_back(cloud.point(i));
-    sample.normals.x.push_back(normals.x[i]);
-    sample.normals.y.push_back(normals.y[i]);
-    sample.normals.z.push_back(normals.z[i]);
+  for (std::size_t i = 0; i < coarse.size(); i += step) {
+    sample.points.push_back(coarse.cloud().point(i));
+    sample.normals.x.push_back(coarse.normals().x[i]);
+    sample.normals.y.push_back(coarse.normals().y[i]);
+    sample.normals.z.push_back(coarse.normals().z[i]);
   }
   return sample;
 }
@@ -87,16 +112,24 @@ std::optional<Plane> best_hypothesis(const Sample& sample, const SupportConfig& 
   return planes[static_cast<std::size_t>(best - scores.begin())];
 }
 
+/// What makes a point one of a plane's.
+struct PlaneLimits {
+  float thickness_m;
+  float min_cosine;
+};
+
 /// Least squares over the inliers; returns their number.
-std::size_t refine(const PointCloud& cloud, const Normals& normals, float thickness_m, float min_cosine,
-                   Plane& plane) {
+std::size_t refine(CoarseSurface& coarse, const PlaneLimits& limits, Plane& plane) {
+  const RawVector<float> heights = heights_above(plane, coarse.cloud());
+  const std::vector<std::uint8_t> is_near = points_within(heights, limits.thickness_m);
+  // With some to spare for the next rounds.
+  if (!coarse.has(is_near)) coarse.prepare(points_within(heights, 2 * limits.thickness_m));
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
   std::size_t n = 0;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const Eigen::Vector3f p = cloud.point(i);
-    if (std::abs(plane.height(p)) >= thickness_m || plane.normal.dot(normals.at(i)) <= min_cosine) continue;
-    const Eigen::Vector3d q = p.cast<double>();
+  for (std::size_t i = 0; i < coarse.size(); ++i) {
+    if (is_near[i] == 0 || plane.normal.dot(coarse.normals().at(i)) <= limits.min_cosine) continue;
+    const Eigen::Vector3d q = coarse.cloud().point(i).cast<double>();
     sum += q;
     squares += q * q.transpose();
     ++n;
@@ -111,42 +144,36 @@ std::size_t refine(const PointCloud& cloud, const Normals& normals, float thickn
   return n;
 }
 
-/// The coarser copy, and what makes a point of it one of a plane's.
-struct PlaneInput {
-  const PointCloud& cloud;
-  const Normals& normals;
-  const Neighborhoods& neighborhoods;
-  float thickness_m;
-  float min_cosine;
-};
-
 /// Largest number of points of a plane that hang together.
-std::size_t connected_points(const PlaneInput& in, const Plane& plane) {
-  const auto belongs = [&](std::uint32_t i) {
-    return std::abs(plane.height(in.cloud.point(i))) < 1.5f * in.thickness_m &&
-           plane.normal.dot(in.normals.at(i)) > in.min_cosine;
-  };
-  UnionFind sets(in.cloud.size());
-  std::vector<std::size_t> count(in.cloud.size());
-  for (std::uint32_t i = 0; i < in.cloud.size(); ++i) {
-    if (!belongs(i)) continue;
-    for (const std::uint32_t j : in.neighborhoods.of(i))
-      if (j > i && belongs(j)) sets.unite(i, j);
+std::size_t connected_points(const CoarseSurface& coarse, const Plane& plane, const PlaneLimits& limits) {
+  std::vector<std::uint8_t> belongs =
+      points_within(heights_above(plane, coarse.cloud()), 1.5f * limits.thickness_m);
+  for (std::size_t i = 0; i < belongs.size(); ++i)
+    if (belongs[i] != 0 && plane.normal.dot(coarse.normals().at(i)) <= limits.min_cosine) belongs[i] = 0;
+  UnionFind sets(coarse.size());
+  std::vector<std::size_t> count(coarse.size());
+  for (std::uint32_t i = 0; i < coarse.size(); ++i) {
+    if (belongs[i] == 0) continue;
+    for (const std::uint32_t j : coarse.neighborhoods().of(i))
+      if (j > i && belongs[j] != 0) sets.unite(i, j);
   }
   std::size_t most = 0;
-  for (std::uint32_t i = 0; i < in.cloud.size(); ++i)
-    if (belongs(i)) most = std::max(most, ++count[sets.find(i)]);
+  for (std::uint32_t i = 0; i < coarse.size(); ++i)
+    if (belongs[i] != 0) most = std::max(most, ++count[sets.find(i)]);
   return most;
 }
 
 /// The highest plane parallel to the one given, and well above it, that has the points; else the one given.
-Plane highest_parallel(const PlaneInput& in, const Plane& plane, std::size_t min_points) {
+Plane highest_parallel(CoarseSurface& coarse, const Plane& plane, const PlaneLimits& limits,
+                       std::size_t min_points) {
   constexpr float kWellAbove = 0.1f;
+  const RawVector<float> heights = heights_above(plane, coarse.cloud());
+  // Those of the lowest level, too.
+  coarse.prepare(points_above(heights, kWellAbove - 3 * limits.thickness_m));
   std::vector<std::size_t> levels;  // points with the plane's normal, by height above it
-  for (std::size_t i = 0; i < in.cloud.size(); ++i) {
-    const float height = plane.height(in.cloud.point(i));
-    if (height < kWellAbove || plane.normal.dot(in.normals.at(i)) <= in.min_cosine) continue;
-    const auto level = static_cast<std::size_t>(height / in.thickness_m);
+  for (std::size_t i = 0; i < coarse.size(); ++i) {
+    if (heights[i] < kWellAbove || plane.normal.dot(coarse.normals().at(i)) <= limits.min_cosine) continue;
+    const auto level = static_cast<std::size_t>(heights[i] / limits.thickness_m);
     if (level >= levels.size()) levels.resize(level + 1);
     ++levels[level];
   }
@@ -154,8 +181,8 @@ Plane highest_parallel(const PlaneInput& in, const Plane& plane, std::size_t min
     // A surface between two levels has half of its points in each.
     const std::size_t here = levels[level] + (level > 0 ? levels[level - 1] : 0);
     if (levels[level] == 0 || here < min_points) continue;
-    Plane upper{plane.normal, plane.offset_m - in.thickness_m * static_cast<float>(level)};
-    if (connected_points(in, upper) >= min_points) return upper;
+    Plane upper{plane.normal, plane.offset_m - limits.thickness_m * static_cast<float>(level)};
+    if (connected_points(coarse, upper, limits) >= min_points) return upper;
   }
   return plane;
 }
@@ -181,33 +208,43 @@ float support_thickness(const Eigen::Vector3f& p, const Eigen::Vector3f& viewpoi
   return std::max(config.thickness_m, 3.5f * sigma_m) + config.thickness_per_m * beyond;
 }
 
+namespace {
+
+std::vector<std::uint8_t> points_of(const Support& support, const PointCloud& cloud,
+                                    const SupportConfig& config) {
+  const float least = support_thickness(cloud.viewpoint, cloud.viewpoint, support.sigma_m, config);
+  std::vector<std::uint8_t> is_support(cloud.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cloud.size(), 8192), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i != range.end(); ++i) {
+      const Eigen::Vector3f p = cloud.point(i);
+      const float height = support.plane.height(p);
+      const bool belongs =
+          height < least || height < support_thickness(p, cloud.viewpoint, support.sigma_m, config);
+      is_support[i] = belongs ? 1 : 0;
+    }
+  });
+  return is_support;
+}
+
+}  // namespace
+
 std::optional<Support> find_support(const PointCloud& cloud, const SupportConfig& config) {
   if (!config.enabled || cloud.empty()) return std::nullopt;
-  const PointCloud coarse = downsample(cloud, {config.leaf_size_m}).cloud;
-  const Neighborhoods neighborhoods = find_neighborhoods(coarse, {2 * config.leaf_size_m});
-  const Normals normals = estimate_normals(coarse, neighborhoods);
-  const float min_cosine = std::cos(config.max_normal_angle_deg * std::numbers::pi_v<float> / 180);
-  const auto hypothesis = best_hypothesis(thin_out(coarse, normals), config, min_cosine, cloud.viewpoint);
+  CoarseSurface coarse(cloud, config.leaf_size_m);
+  const PlaneLimits limits{config.thickness_m,
+                           std::cos(config.max_normal_angle_deg * std::numbers::pi_v<float> / 180)};
+  const auto hypothesis = best_hypothesis(thin_out(coarse), config, limits.min_cosine, cloud.viewpoint);
   if (!hypothesis) return std::nullopt;
   Support support;
   const auto upper_points =
       static_cast<std::size_t>(config.min_upper_area_m2 / (config.leaf_size_m * config.leaf_size_m));
-  const PlaneInput input{coarse, normals, neighborhoods, config.thickness_m, min_cosine};
-  support.plane = highest_parallel(input, *hypothesis, upper_points);
+  support.plane = highest_parallel(coarse, *hypothesis, limits, upper_points);
   std::size_t inliers = 0;
-  for (int round = 0; round < 3; ++round)
-    inliers = refine(coarse, normals, config.thickness_m, min_cosine, support.plane);
+  for (int round = 0; round < 3; ++round) inliers = refine(coarse, limits, support.plane);
   if (static_cast<float>(inliers) * config.leaf_size_m * config.leaf_size_m < config.min_area_m2)
     return std::nullopt;
   support.sigma_m = scatter(cloud, support.plane, config.thickness_m);
-  support.is_support.resize(cloud.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cloud.size(), 8192), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i != range.end(); ++i) {
-      const Eigen::Vector3f p = cloud.point(i);
-      support.is_support[i] =
-          support.plane.height(p) < support_thickness(p, cloud.viewpoint, support.sigma_m, config) ? 1 : 0;
-    }
-  });
+  support.is_support = points_of(support, cloud, config);
   return support;
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "service/pipeline/downsample.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/scene_gallery.hpp"
 #include "tests/unit/pipeline/voxel_surfaces.hpp"
@@ -119,6 +120,21 @@ TEST(Support, LargestOfSeveralPlanes) {
   expect_plane(support_of(s), Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Zero());
 }
 
+/// With voxels so fine that there are too many for each to have a normal before it is needed.
+SupportConfig fine(const PointCloud& cloud, float leaf_size_m) {
+  EXPECT_GT(downsample(cloud, {leaf_size_m}).cloud.size(), 10000u);
+  SupportConfig config;
+  config.leaf_size_m = leaf_size_m;
+  return config;
+}
+
+TEST(Support, OfManyPoints) {
+  const VoxelSurfaces s = voxel_surfaces(render(three_objects()));
+  const auto support = find_support(s.cloud, fine(s.cloud, 0.004f));
+  expect_plane(support, Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Zero());
+  expect_points(s, *support, 0, 0.010);
+}
+
 TEST(Support, TheTableRatherThanTheLargerFloorBelow) {
   // A table of 0.5 m x 0.4 m, 0.5 m above a floor of which more is seen.
   AnalyticScene scene =
@@ -127,7 +143,11 @@ TEST(Support, TheTableRatherThanTheLargerFloorBelow) {
   scene.solids[0].T_scene_solid.translation().z() = -0.5;
   scene.camera = {looking_at({0, -0.6, 0.9}, {0, 0, 0}), 320, 240, 230};
   const VoxelSurfaces s = voxel_surfaces(render(scene));
-  expect_plane(support_of(s), Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Zero());
+  for (const SupportConfig& config : {SupportConfig{}, fine(s.cloud, 0.006f)}) {
+    const auto support = find_support(s.cloud, config);
+    expect_plane(support, Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Zero());
+    expect_points(s, *support, 1, 0.010);
+  }
 }
 
 TEST(Support, TheSameCloudGivesTheSamePlane) {

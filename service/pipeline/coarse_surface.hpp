@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The coarser copy of a cloud that its support is looked for in.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "service/pipeline/neighborhoods.hpp"
+#include "service/pipeline/normals.hpp"
+#include "service/pipeline/point_cloud.hpp"
+
+namespace graspd {
+
+/// Neighbourhoods and normals are made of the points that need them: in a wide view most lie far below the
+/// support.
+class CoarseSurface {
+ public:
+  /// leaf_size_m: of its voxels. Neighbourhoods reach two of them.
+  CoarseSurface(const PointCloud& cloud, float leaf_size_m);
+  CoarseSurface(const CoarseSurface&) = delete;
+  CoarseSurface& operator=(const CoarseSurface&) = delete;
+
+  [[nodiscard]] const PointCloud& cloud() const { return cloud_; }
+  [[nodiscard]] std::size_t size() const { return cloud_.size(); }
+
+  /// Whether those of all points with wanted[i] != 0 are there.
+  [[nodiscard]] bool has(const std::vector<std::uint8_t>& wanted) const;
+  /// Makes them, and of no others, unless they are there.
+  void prepare(const std::vector<std::uint8_t>& wanted);
+  /// Of the points prepared.
+  [[nodiscard]] const Neighborhoods& neighborhoods() const { return neighborhoods_; }
+  [[nodiscard]] const Normals& normals() const { return normals_; }
+
+ private:
+  PointCloud cloud_;
+  NeighborhoodSearch search_;
+  std::vector<std::uint8_t> is_missing_;
+  Neighborhoods neighborhoods_;
+  Normals normals_;
+};
+
+}  // namespace graspd

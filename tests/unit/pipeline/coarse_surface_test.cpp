@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/pipeline/coarse_surface.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "service/pipeline/downsample.hpp"
+#include "tests/support/clouds.hpp"
+#include "tests/support/scene_gallery.hpp"
+
+namespace graspd {
+namespace {
+
+constexpr float kLeaf = 0.006f;
+
+std::vector<std::uint8_t> every(std::size_t step, std::size_t n) {
+  std::vector<std::uint8_t> wanted(n);
+  for (std::size_t i = 0; i < n; i += step) wanted[i] = 1;
+  return wanted;
+}
+
+TEST(CoarseSurface, PreparesTheSameAsForAllPoints) {
+  const PointCloud cloud = finite_points(render(three_objects()).cloud);
+  CoarseSurface coarse(cloud, kLeaf);
+  const PointCloud voxels = downsample(cloud, {kLeaf}).cloud;
+  const Neighborhoods neighborhoods = find_neighborhoods(voxels, {2 * kLeaf});
+  const Normals normals = estimate_normals(voxels, neighborhoods);
+  ASSERT_EQ(coarse.size(), voxels.size());
+  for (const std::size_t step : {std::size_t{22}, std::size_t{3}, std::size_t{1}}) {
+    const std::vector<std::uint8_t> wanted = every(step, coarse.size());
+    EXPECT_FALSE(coarse.has(wanted));
+    coarse.prepare(wanted);
+    EXPECT_TRUE(coarse.has(wanted));
+    for (std::size_t i = 0; i < coarse.size(); i += step) {
+      ASSERT_EQ(coarse.normals().at(i), normals.at(i)) << i << " of every " << step;
+      ASSERT_TRUE(std::ranges::equal(coarse.neighborhoods().of(i), neighborhoods.of(i)));
+    }
+  }
+}
+
+TEST(CoarseSurface, WhatIsThereIsNotMadeAgain) {
+  CoarseSurface coarse(finite_points(render(three_objects()).cloud), kLeaf);
+  coarse.prepare(every(2, coarse.size()));
+  const float* normals = coarse.normals().x.data();
+  EXPECT_TRUE(coarse.has(every(4, coarse.size())));
+  coarse.prepare(every(4, coarse.size()));
+  EXPECT_EQ(coarse.normals().x.data(), normals);
+  EXPECT_TRUE(coarse.has(every(2, coarse.size())));
+  EXPECT_FALSE(coarse.has(every(3, coarse.size())));
+  coarse.prepare(every(3, coarse.size()));
+  EXPECT_FALSE(coarse.has(every(2, coarse.size()))) << "others are lost";
+}
+
+TEST(CoarseSurface, EmptyCloud) {
+  CoarseSurface coarse({}, kLeaf);
+  coarse.prepare({});
+  EXPECT_EQ(coarse.size(), 0u);
+}
+
+}  // namespace
+}  // namespace graspd
