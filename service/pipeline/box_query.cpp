@@ -3,6 +3,7 @@
 #include "service/pipeline/box_query.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -10,7 +11,8 @@
 namespace graspd {
 namespace {
 
-constexpr int kBeyond = std::numeric_limits<int>::max();  // layer of the row after the last
+constexpr std::size_t kRows = 64;    // looked at together
+constexpr std::size_t kSpans = 128;  // the same
 
 }  // namespace
 
@@ -21,16 +23,18 @@ void LocalPoints::show(std::size_t n) {
   index = {index_.data(), n};
 }
 
-void LocalPoints::add_inside(const BoxTest& box, const PointRange& points) {
+void LocalPoints::add_inside(const BoxTest& box, const PointRange& points, std::span<const PointSpan> spans) {
   const std::size_t n = size();
-  if (const std::size_t most = n + points.size + kPointPadding; a_.size() < most) {
+  std::size_t most = n + kPointPadding;
+  for (const PointSpan& span : spans) most += span.end - span.begin;
+  if (a_.size() < most) {
     const std::size_t room = std::max(most, 2 * a_.size());
     a_.resize(room);
     f_.resize(room);
     z_.resize(room);
     index_.resize(room);
   }
-  show(n + point_kernels().keep_inside(box, points,
+  show(n + point_kernels().keep_inside(box, points, spans,
                                        {a_.data() + n, f_.data() + n, z_.data() + n, index_.data() + n}));
 }
 
@@ -81,11 +85,16 @@ struct BoxQuery::Box {
     per_distance[3] = 1;
   }
 
-  /// The x that the row around the line (y, z) can have inside the box; empty when the first is larger.
-  [[nodiscard]] std::pair<float, float> x_of_row(float y, float z) const {
-    const Faces base = per_y * y + per_z * z;
+  /// What the faces leave of the rows in the layer around z.
+  [[nodiscard]] RowLimits limits(float z, float cell_m) const {
+    const Faces base = per_z * z, slope = per_y * per_distance;
     const Faces from = (min - base) * per_distance, to = (max - base) * per_distance;
-    return {from.min(to).maxCoeff(), from.max(to).minCoeff()};
+    RowLimits limits;
+    Eigen::Map<Faces>(limits.least) = from.min(to);
+    Eigen::Map<Faces>(limits.most) = from.max(to);
+    Eigen::Map<Faces>(limits.slope) = slope;
+    limits.cell_m = cell_m;
+    return limits;
   }
 };
 
@@ -98,58 +107,65 @@ BoxQuery::BoxQuery(const PointCloud& cloud, float cell_m) : cell_m_(cell_m) {
   for (std::size_t c = 0; c < num_cells; ++c) {
     const std::int64_t key = order.keys[c];
     const Eigen::Vector3i cell = order.cell_of(key);
-    const bool goes_on =
-        key - last_key <= kMostGap && cell.y() == rows_.back().y && cell.z() == rows_.back().z;
+    const bool same_layer = !layers_.empty() && cell.z() == layers_.back().z;
+    const bool goes_on = same_layer && cell.y() == row_y_.back() && key - last_key <= kMostGap;
     if (!goes_on) {
-      if (!rows_.empty()) row_starts_.push_back(order.starts[c]);
-      rows_.push_back({cell.z(), cell.y(), cell.x(), 0, row_starts_.size()});
+      if (!row_y_.empty()) cell_starts_.push_back(order.starts[c]);
+      if (!same_layer) layers_.push_back({cell.z(), row_y_.size()});
+      row_y_.push_back(cell.y());
+      row_x_.push_back(cell.x());
+      row_cells_.push_back(0);
+      row_start_.push_back(static_cast<std::uint32_t>(cell_starts_.size()));
     }
-    Row& row = rows_.back();
-    for (; row.num_cells <= cell.x() - row.x; ++row.num_cells) row_starts_.push_back(order.starts[c]);
+    for (std::int32_t& n = row_cells_.back(); n <= cell.x() - row_x_.back(); ++n)
+      cell_starts_.push_back(order.starts[c]);
     last_key = key;
   }
-  row_starts_.push_back(order.starts[num_cells]);
-  rows_.push_back({kBeyond, 0, 0, 0, 0});
-}
-
-PointRange BoxQuery::points_of_row(const Box& box, const Row& row) const {
-  const auto [x0, x1] = box.x_of_row((static_cast<float>(row.y) + 0.5f) * cell_m_,
-                                     (static_cast<float>(row.z) + 0.5f) * cell_m_);
-  if (x0 > x1) return {};
-  const int from = std::max(0, cell_index(x0, 1 / cell_m_) - row.x);
-  const int to = std::min(row.num_cells, cell_index(x1, 1 / cell_m_) + 1 - row.x);
-  if (from >= to) return {};
-  const std::uint32_t* starts = row_starts_.data() + row.start;
-  return points_.range(starts[from], starts[to]);
+  cell_starts_.push_back(order.starts[num_cells]);
+  layers_.push_back({std::numeric_limits<int>::max(), row_y_.size()});
+  for (std::vector<std::int32_t>* v : {&row_y_, &row_x_, &row_cells_}) v->resize(v->size() + kPointPadding);
 }
 
 template <class Visit>
-void BoxQuery::for_each_range(const Box& box, Visit visit) const {
-  if (rows_.empty()) return;
-  const Eigen::Vector3f from = (box.center - box.reach) / cell_m_, to = (box.center + box.reach) / cell_m_;
-  const Eigen::Vector3i lo = from.array().floor().cast<int>(), hi = to.array().floor().cast<int>();
-  const auto first_from = [this](auto row, int z, int y) {
-    return std::lower_bound(row, rows_.end(), Row{z, y, 0, 0, 0},
-                            [](const Row& a, const Row& b) { return a.z != b.z ? a.z < b.z : a.y < b.y; });
-  };
-  auto row = first_from(rows_.begin(), lo.z(), lo.y());
-  while (row->z <= hi.z()) {
-    if (row->y < lo.y() || row->y > hi.y()) {
-      row = first_from(row, row->y > hi.y() ? row->z + 1 : row->z, lo.y());
-      continue;
+void BoxQuery::for_each_part(const Box& box, Visit visit) const {
+  if (layers_.empty()) return;
+  const Eigen::Vector3f from_m = (box.center - box.reach) / cell_m_,
+                        to_m = (box.center + box.reach) / cell_m_;
+  const Eigen::Vector3i lo = from_m.array().floor().cast<int>(), hi = to_m.array().floor().cast<int>();
+  std::array<std::int32_t, kRows + kPointPadding> from, to;
+  std::array<PointSpan, kSpans> spans;
+  std::size_t n = 0;
+  auto layer = std::lower_bound(layers_.begin(), layers_.end() - 1, lo.z(),
+                                [](const Layer& l, int z) { return l.z < z; });
+  for (; layer->z <= hi.z(); ++layer) {
+    const RowLimits limits = box.limits((static_cast<float>(layer->z) + 0.5f) * cell_m_, cell_m_);
+    const auto y = row_y_.begin(), begin = y + static_cast<std::ptrdiff_t>(layer->row),
+               end = y + static_cast<std::ptrdiff_t>((layer + 1)->row);
+    auto row = static_cast<std::size_t>(std::lower_bound(begin, end, lo.y()) - y);
+    const auto last = static_cast<std::size_t>(std::upper_bound(begin, end, hi.y()) - y);
+    for (; row < last; row += kRows) {
+      const std::size_t size = std::min(kRows, last - row);
+      point_kernels().meet_rows(limits, {&row_y_[row], &row_x_[row], &row_cells_[row], size}, from.data(),
+                                to.data());
+      for (std::size_t i = 0; i < size; ++i) {
+        if (from[i] >= to[i]) continue;
+        const std::uint32_t* starts = cell_starts_.data() + row_start_[row + i];
+        const PointSpan span{starts[from[i]], starts[to[i]]};
+        if (span.begin == span.end) continue;
+        spans[n++] = span;
+        if (n == kSpans && !visit(std::span<const PointSpan>(spans.data(), std::exchange(n, 0)))) return;
+      }
     }
-    const PointRange points = points_of_row(box, *row);
-    if (points.size > 0 && !visit(points)) return;
-    ++row;
   }
+  if (n > 0) visit(std::span<const PointSpan>(spans.data(), n));
 }
 
 void BoxQuery::find(const Eigen::Vector3f& origin, const Eigen::Matrix3f& rotation,
                     const Eigen::Vector3f& min, const Eigen::Vector3f& max, LocalPoints& out) const {
   const Box box(origin, rotation, min, max, 0.5f * cell_m_);
   out.clear();
-  for_each_range(box, [&](const PointRange& points) {
-    out.add_inside(box.test, points);
+  for_each_part(box, [&](std::span<const PointSpan> spans) {
+    out.add_inside(box.test, points_.all(), spans);
     return true;
   });
 }
@@ -160,8 +176,8 @@ bool BoxQuery::has_more(const Eigen::Vector3f& origin, const Eigen::Matrix3f& ro
   const PointKernels& kernels = point_kernels();
   const auto most = static_cast<std::size_t>(limit);
   std::size_t n = 0;
-  for_each_range(box, [&](const PointRange& points) {
-    n += kernels.count_inside(box.test, points);
+  for_each_part(box, [&](std::span<const PointSpan> spans) {
+    n += kernels.count_inside(box.test, points_.all(), spans, most - n);
     return n <= most;
   });
   return n > most;

@@ -27,7 +27,8 @@ class LocalPoints {
   [[nodiscard]] std::size_t size() const { return a.size(); }
   [[nodiscard]] BandPoints band() const { return {f.data(), z.data(), index.data(), size()}; }
   void clear() { show(0); }
-  void add_inside(const BoxTest& box, const PointRange& points);
+  /// spans: parts of the points to look at.
+  void add_inside(const BoxTest& box, const PointRange& points, std::span<const PointSpan> spans);
 
  private:
   void show(std::size_t n);
@@ -57,21 +58,22 @@ class BoxQuery {
 
  private:
   struct Box;
-  /// Cells with the same y and z that follow one another along x with small gaps.
-  struct Row {
-    int z, y, x, num_cells;  ///< x of the first
-    std::size_t start;       ///< of its points by x, in row_starts_
-  };
-  /// The part of a row that may lie in the box.
-  [[nodiscard]] PointRange points_of_row(const Box& box, const Row& row) const;
-  /// Calls visit(points) with ranges that hold all points of the box; it returns false to stop.
+  /// Calls visit(spans) with parts of the points that hold all those of the box; it returns false to stop.
   template <class Visit>
-  void for_each_range(const Box& box, Visit visit) const;
+  void for_each_part(const Box& box, Visit visit) const;
 
   float cell_m_ = 1;
-  std::vector<Row> rows_;  // by z, then y, then x; one more at the end
+  /// Rows are cells with the same y and z that follow one another along x with small gaps; sorted by z, y and
+  /// x. By row, and kPointPadding more:
+  std::vector<std::int32_t> row_y_, row_x_, row_cells_;  // x of the first cell, number of cells
+  std::vector<std::uint32_t> row_start_;                 // of its cells, in cell_starts_
+  struct Layer {
+    int z;
+    std::size_t row;  ///< its first
+  };
+  std::vector<Layer> layers_;  // those that have rows; one more at the end
   std::vector<std::uint32_t>
-      row_starts_;  // for each x of each row, and for the one after: position in points_
+      cell_starts_;  // for each x of each row, and for the one after: position in points_
   PaddedPoints points_;
 };
 

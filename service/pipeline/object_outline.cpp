@@ -35,10 +35,12 @@ bool ObjectOutlines::clearly_too_wide(const Candidate& candidate, const Gripper&
   const float half_band = 0.5f * gripper.finger_thickness_m, half_depth = 0.5f * gripper.grasp_depth_m;
   constexpr float kReach = 31.4f * kSpacing;
   // Only what is surely within the fingers' depth, wherever the top turns out to be.
+  const PaddedPoints& points = objects_[static_cast<std::size_t>(candidate.object)];
+  const PointSpan whole{0, static_cast<std::uint32_t>(points.size())};
   buffer.clear();
   buffer.add_inside(box_test(candidate.position, candidate.rotation, {-half_band, -kReach, -half_depth},
                              {half_band, kReach, half_depth}),
-                    objects_[static_cast<std::size_t>(candidate.object)].all());
+                    points.all(), {&whole, 1});
   // Occupied spacings to both sides of the candidate; bit 32 is its own.
   std::uint64_t occupied = 0;
   for (std::size_t k = 0; k < buffer.size(); ++k)

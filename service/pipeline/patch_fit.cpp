@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "service/pipeline/bin_set.hpp"
 #include "service/pipeline/nth_value.hpp"
 
 namespace graspd {
@@ -17,45 +18,34 @@ constexpr float kTopWindow =
     0.012f;  // around the candidate's position, where the top is looked for first [m]
 
 /// Who is where along the closing axis.
-class Profile {
- public:
-  /// tags: whose bins these are. n selected points leave their marks.
+struct Profile {
+  BinSet own, any;  // bins with points of the object, and of anything
+  BinSet others;
+
+  /// n selected points leave their marks.
   Profile(const BandTags& tags, std::size_t n, CheckBuffers& buffers)
-      : first_m_(tags.first), size_(tags.num_bins), marked_(buffers.marked) {
-    marked_.assign(static_cast<std::size_t>(tags.no_mark()) + 1, 0);
-    for (std::size_t i = 0; i < n; ++i)
-      marked_[static_cast<std::size_t>(buffers.marks[buffers.selected[i]])] = 1;
+      : own(mark(tags, n, buffers).subspan(tags.stride(), tags.stride())),
+        any(own),
+        others(std::span(buffers.marked).first(tags.stride())) {
+    any = own | others;
   }
-  [[nodiscard]] int size() const { return size_; }
-  [[nodiscard]] bool has_bin(int bin) const { return bin >= 0 && bin < size_; }
-  /// Of a bin that there is.
-  [[nodiscard]] bool has_other(int bin) const { return marked_[static_cast<std::size_t>(2 * bin)] != 0; }
-  [[nodiscard]] bool has_own(int bin) const { return marked_[static_cast<std::size_t>(2 * bin + 1)] != 0; }
-  [[nodiscard]] bool has_any(int bin) const { return has_other(bin) || has_own(bin); }
-  /// Where a bin begins [m].
-  [[nodiscard]] float at(int bin) const { return first_m_ + kBin * static_cast<float>(bin); }
-  [[nodiscard]] int bin_of(float f) const { return cell_index((f - first_m_) / kBin, 1); }
 
  private:
-  float first_m_;
-  int size_;
-  std::vector<std::uint8_t>& marked_;
+  static std::span<const std::uint8_t> mark(const BandTags& tags, std::size_t n, CheckBuffers& buffers) {
+    buffers.marked.assign(static_cast<std::size_t>(tags.no_mark()) + 1, 0);
+    for (std::size_t i = 0; i < n; ++i)
+      buffers.marked[static_cast<std::size_t>(buffers.marks[buffers.selected[i]])] = 1;
+    return buffers.marked;
+  }
 };
 
-/// Walks outwards from a bin over occupied bins; stops before the first gap of min_gap bins. Returns the last
-/// occupied bin, and in next the first occupied one beyond the gap (or the end of the profile).
-int walk(const Profile& profile, int from, int step, int min_gap, int& next) {
-  int last = from;
-  for (int b = from; profile.has_bin(b); b += step) {
-    if (!profile.has_any(b)) continue;
-    if (std::abs(b - last) > min_gap) {
-      next = b;
-      return last;
-    }
-    last = b;
-  }
-  next = step < 0 ? -1 : profile.size();
-  return last;
+/// The bin of the set that is nearest to one, the one after it where two are; -1 where none is within so many
+/// bins.
+int nearest(const BinSet& bins, int bin, int within) {
+  const int after = bins.next(bin), before = bins.previous(bin);
+  const int up = after < bins.size() ? after - bin : within, down = before >= 0 ? bin - before : within;
+  if (std::min(up, down) >= within) return -1;
+  return up <= down ? after : before;
 }
 
 /// Depth that only a few of the object's points between f_min and f_max are above.
@@ -112,30 +102,23 @@ Failure find_patch(const BandTags& tags, const Gripper& g, CheckBuffers& buffers
       {0, fit.top_m, 0, kAnywhere, g.grasp_depth_m - g.finger_length_m, g.grasp_depth_m},
       buffers.local.band(), buffers.selected.data());
   const Profile profile(tags, n, buffers);
-  const auto is_own = [&profile](int b) { return profile.has_bin(b) && profile.has_own(b); };
-  int start = profile.bin_of(f0);
-  for (int d = 0; d < static_cast<int>(0.5f * g.aperture_m / kBin); ++d) {
-    if (is_own(start + d)) {
-      start += d;
-      break;
-    }
-    if (is_own(start - d)) {
-      start -= d;
-      break;
-    }
-  }
-  if (!is_own(start)) return Failure::kTooFewPoints;
+  const int start = nearest(profile.own, cell_index((f0 - tags.first) / kBin, 1),
+                            static_cast<int>(0.5f * g.aperture_m / kBin));
+  if (start < 0) return Failure::kTooFewPoints;
+  // Outwards over occupied bins to the nearest gaps, and to what comes first beyond them.
   const int min_gap = static_cast<int>(g.min_gap_m / kBin);
-  int below = 0, beyond = 0;
-  const int low = walk(profile, start, -1, min_gap, below), high = walk(profile, start, 1, min_gap, beyond);
+  const BinSet gaps = profile.any.gaps(min_gap);
+  const int gap_below = gaps.previous(start - min_gap);
+  const int low = gap_below < 0 ? profile.any.next(0) : gap_below + min_gap,
+            high = profile.any.previous(gaps.next(start) - 1);
+  const int below = profile.any.previous(low - 1),
+            beyond = std::min(profile.any.next(high + 1), tags.num_bins);
   fit.width_m = kBin * static_cast<float>(high - low + 1);
-  fit.center_m = profile.at(low) + 0.5f * fit.width_m;
+  fit.center_m = tags.first + kBin * static_cast<float>(low) + 0.5f * fit.width_m;
   fit.gap_m = {std::min(g.aperture_m, kBin * static_cast<float>(low - below - 1)),
                std::min(g.aperture_m, kBin * static_cast<float>(beyond - high - 1))};
   if (fit.width_m <= g.aperture_m + 0.004f) return Failure::kNone;
-  int other = 0;
-  for (int b = low; b <= high; ++b) other += profile.has_other(b) ? 1 : 0;
-  return other > 3 ? Failure::kNoGap : Failure::kTooWide;
+  return profile.others.count(low, high) > 3 ? Failure::kNoGap : Failure::kTooWide;
 }
 
 /// The top of the whole patch may be higher than where the search began; then the depths below it are others,
@@ -173,7 +156,7 @@ BandTags band_tags(const SceneView& scene, const Candidate& candidate, float rea
           kSupportObject,
           -reach_m,
           kBin,
-          static_cast<int>(2 * reach_m / kBin) + 1};
+          std::min(static_cast<int>(2 * reach_m / kBin) + 1, BinSet::kMostBins)};
 }
 
 /// Whose the points are, and where in the profile.

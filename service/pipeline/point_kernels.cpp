@@ -36,32 +36,50 @@ void transform(const BoxTest& box, const float* x, const float* y, const float* 
   }
 }
 
-std::size_t keep_inside(const BoxTest& box, const PointRange& points, const LocalOutput& out) {
+std::size_t keep_inside(const BoxTest& box, const PointRange& points, std::span<const PointSpan> spans,
+                        const LocalOutput& out) {
   Block block;
   std::size_t n = 0;
-  for (std::size_t from = 0; from < points.size; from += kBlock) {
-    const std::size_t size = std::min(kBlock, points.size - from);
-    transform(box, points.x + from, points.y + from, points.z + from, size, block);
-    for (std::size_t k = 0; k < size; ++k) {
-      out.a[n] = block.a[k];
-      out.f[n] = block.f[k];
-      out.z[n] = block.z[k];
-      out.index[n] = points.index[from + k];
-      n += static_cast<std::size_t>(block.inside[k]);
+  for (const PointSpan& span : spans)
+    for (std::size_t from = span.begin; from < span.end; from += kBlock) {
+      const std::size_t size = std::min(kBlock, span.end - from);
+      transform(box, points.x + from, points.y + from, points.z + from, size, block);
+      for (std::size_t k = 0; k < size; ++k) {
+        out.a[n] = block.a[k];
+        out.f[n] = block.f[k];
+        out.z[n] = block.z[k];
+        out.index[n] = points.index[from + k];
+        n += static_cast<std::size_t>(block.inside[k]);
+      }
     }
-  }
   return n;
 }
 
-std::size_t count_inside(const BoxTest& box, const PointRange& points) {
+std::size_t count_inside(const BoxTest& box, const PointRange& points, std::span<const PointSpan> spans,
+                         std::size_t enough) {
   Block block;
-  int n = 0;
-  for (std::size_t from = 0; from < points.size; from += kBlock) {
-    const std::size_t size = std::min(kBlock, points.size - from);
-    transform(box, points.x + from, points.y + from, points.z + from, size, block);
-    for (std::size_t k = 0; k < size; ++k) n += block.inside[k];
+  std::size_t n = 0;
+  for (auto span = spans.begin(); span != spans.end() && n <= enough; ++span)
+    for (std::size_t from = span->begin; from < span->end; from += kBlock) {
+      const std::size_t size = std::min(kBlock, span->end - from);
+      transform(box, points.x + from, points.y + from, points.z + from, size, block);
+      n += static_cast<std::size_t>(std::accumulate(block.inside, block.inside + size, 0));
+    }
+  return n;
+}
+
+void meet_rows(const RowLimits& limits, const CellRows& rows, std::int32_t* from, std::int32_t* to) {
+  const float per_cell = 1 / limits.cell_m;
+  for (std::size_t i = 0; i < rows.size; ++i) {
+    const float y = (static_cast<float>(rows.y[i]) + 0.5f) * limits.cell_m;
+    float x0 = limits.least[0] - limits.slope[0] * y, x1 = limits.most[0] - limits.slope[0] * y;
+    for (int k = 1; k < 4; ++k) {
+      x0 = std::max(x0, limits.least[k] - limits.slope[k] * y);
+      x1 = std::min(x1, limits.most[k] - limits.slope[k] * y);
+    }
+    from[i] = std::max(0, cell_index(x0, per_cell) - rows.x[i]);
+    to[i] = x0 > x1 ? 0 : std::min(rows.num_cells[i], cell_index(x1, per_cell) + 1 - rows.x[i]);
   }
-  return static_cast<std::size_t>(n);
 }
 
 std::size_t keep_near(const float (&p)[3], float distance_squared, const PointRange& points,
@@ -125,13 +143,14 @@ void number_cells(const CellGrid& grid, const float* x, const float* y, const fl
 }
 
 void tag_band(const BandTags& tags, const BandPoints& points, std::int32_t* own, std::int32_t* marks) {
+  const auto stride = static_cast<std::int32_t>(tags.stride());
   for (std::size_t k = 0; k < points.size; ++k)
     marks[k] = cell_index((points.f[k] - tags.first) / tags.bin, 1);
   for (std::size_t k = 0; k < points.size; ++k) {
     const std::int32_t object = tags.object_of_point[points.index[k]], bin = marks[k];
     own[k] = object == tags.object ? 1 : 0;
     const bool has_entry = object != tags.left_out && bin >= 0 && bin < tags.num_bins;
-    marks[k] = has_entry ? 2 * bin + own[k] : tags.no_mark();
+    marks[k] = has_entry ? bin + own[k] * stride : tags.no_mark();
   }
 }
 
@@ -160,8 +179,8 @@ std::size_t select_band(const BandLimits& limits, const BandPoints& points, std:
 }  // namespace
 
 const PointKernels& portable_kernels() {
-  static constexpr PointKernels kKernels{keep_inside,  count_inside, keep_near,   sum_moments, extend_bounds,
-                                         number_cells, tag_band,     keep_depths, select_band};
+  static constexpr PointKernels kKernels{keep_inside,   count_inside, meet_rows, keep_near,   sum_moments,
+                                         extend_bounds, number_cells, tag_band,  keep_depths, select_band};
   return kKernels;
 }
 

@@ -6,6 +6,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace graspd {
 
@@ -18,16 +19,35 @@ struct PointRange {
 };
 inline constexpr std::size_t kPointPadding = 8;
 
+/// Those at positions [begin, end) of a range.
+struct PointSpan {
+  std::uint32_t begin, end;
+};
+
 /// A box, and what takes points to its coordinates: local = to_local p + shift.
 struct BoxTest {
   float to_local[3][3];  ///< rows
   float shift[3], min[3], max[3];
 };
 
-/// Where points in a box go, in its coordinates. There must be room for size + kPointPadding entries.
+/// Where points in a box go, in its coordinates. There must be room for as many as there are in the spans
+/// + kPointPadding.
 struct LocalOutput {
   float *a, *f, *z;
   std::uint32_t* index;
+};
+
+/// Rows of cells along x in one layer of a grid. Arrays must be readable for kPointPadding entries beyond the
+/// last.
+struct CellRows {
+  const std::int32_t *y, *x, *num_cells;  ///< x of the first cell
+  std::size_t size;
+};
+
+/// What four pairs of planes leave of the x of a row around y: least - slope y to most - slope y for each.
+struct RowLimits {
+  float least[4], most[4], slope[4];  ///< [m]
+  float cell_m;
 };
 
 /// A regular grid whose cells are numbered in 32 bits: min_cell has number 0, the next along x 1, and so on.
@@ -51,9 +71,11 @@ struct BandTags {
   float first, bin;               ///< where bin 0 begins, and the length of each [m]
   std::int32_t num_bins;
 
-  /// Entries of a profile have two marks each, for points of others and for the object's; this is the mark of
-  /// points that have no entry.
-  [[nodiscard]] std::int32_t no_mark() const { return 2 * num_bins; }
+  /// From the mark of a bin for points of others to the one for the object's: the bins, rounded up to whole
+  /// words.
+  [[nodiscard]] std::size_t stride() const { return (static_cast<std::size_t>(num_bins) + 63) / 64 * 64; }
+  /// The mark of points that have no bin.
+  [[nodiscard]] std::int32_t no_mark() const { return static_cast<std::int32_t>(2 * stride()); }
 };
 
 /// Part of a band, about its middle and top; bounds belong to it.
@@ -69,10 +91,15 @@ struct Moments {
 };
 
 struct PointKernels {
-  /// Writes the points inside, in their order; returns their number.
-  std::size_t (*keep_inside)(const BoxTest& box, const PointRange& points, const LocalOutput& out);
-  /// Number of points inside.
-  std::size_t (*count_inside)(const BoxTest& box, const PointRange& points);
+  /// Writes the points of some spans that are inside, in their order; returns their number.
+  std::size_t (*keep_inside)(const BoxTest& box, const PointRange& points, std::span<const PointSpan> spans,
+                             const LocalOutput& out);
+  /// Number of points of some spans that are inside; stops after a span when they are more than enough.
+  std::size_t (*count_inside)(const BoxTest& box, const PointRange& points, std::span<const PointSpan> spans,
+                              std::size_t enough);
+  /// Writes the cells [from, to) of each row, counted from its first, that lie within the limits; none where
+  /// from >= to. There must be room for size + kPointPadding.
+  void (*meet_rows)(const RowLimits& limits, const CellRows& rows, std::int32_t* from, std::int32_t* to);
   /// Writes the indices of the points within the distance of p, in their order; returns their number. There
   /// must be room for size + kPointPadding.
   std::size_t (*keep_near)(const float (&p)[3], float distance_squared, const PointRange& points,
@@ -86,8 +113,8 @@ struct PointKernels {
   /// Writes the number of the cell of each of n points.
   void (*number_cells)(const CellGrid& grid, const float* x, const float* y, const float* z, std::size_t n,
                        std::uint32_t* out);
-  /// own: 1 for each point of the object; marks: 2 bin + own, or no_mark(). There must be room for size +
-  /// kPointPadding, and as many points to read.
+  /// own: 1 for each point of the object; marks: bin + own stride(), or no_mark(). There must be room for
+  /// size + kPointPadding, and as many points to read.
   void (*tag_band)(const BandTags& tags, const BandPoints& points, std::int32_t* own, std::int32_t* marks);
   /// Writes z of the own points with f in [f_min, f_max], in their order; returns their number. There must be
   /// room for size + kPointPadding, and as many points to read.

@@ -41,10 +41,14 @@ GRASPD_AVX2 inline void store_index(std::uint32_t* to, const std::uint32_t* from
   _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm256_permutevar8x32_epi32(v, lanes));
 }
 
+inline unsigned first_lanes(std::size_t n) {
+  return (1u << n) - 1;
+}
+
 /// Of a mask of the block of eight that begins at k the lanes that hold points, of so many points.
 inline unsigned valid_lanes(int mask, std::size_t k, std::size_t size) {
   const auto lanes = static_cast<unsigned>(mask);
-  return k + 8 <= size ? lanes : lanes & ((1u << (size - k)) - 1);
+  return k + 8 <= size ? lanes : lanes & first_lanes(size - k);
 }
 
 struct Box {
@@ -69,36 +73,63 @@ struct Box {
   }
 };
 
-GRASPD_AVX2 std::size_t keep_inside(const BoxTest& test, const PointRange& points, const LocalOutput& out) {
+struct LocalBlock {
+  __m256 a, f, z;
+};
+
+/// Which of the eight points from k on are inside. A box is thin along the first axis: most blocks fail
+/// there.
+GRASPD_AVX2 inline unsigned inside_lanes(const Box& box, const PointRange& points, std::size_t k,
+                                         LocalBlock& local) {
+  const __m256 x = _mm256_loadu_ps(points.x + k), y = _mm256_loadu_ps(points.y + k),
+               z = _mm256_loadu_ps(points.z + k);
+  local.a = box.local(0, x, y, z);
+  const __m256 within = box.within(0, local.a);
+  if (_mm256_testz_ps(within, within)) return 0;
+  local.f = box.local(1, x, y, z);
+  local.z = box.local(2, x, y, z);
+  return static_cast<unsigned>(_mm256_movemask_ps(
+      _mm256_and_ps(_mm256_and_ps(within, box.within(1, local.f)), box.within(2, local.z))));
+}
+
+GRASPD_AVX2 inline std::size_t write_lanes(unsigned mask, const LocalBlock& local, const std::uint32_t* index,
+                                           const LocalOutput& out, std::size_t n) {
+  const __m256i lanes = lanes_of(mask);
+  store(out.a + n, local.a, lanes);
+  store(out.f + n, local.f, lanes);
+  store(out.z + n, local.z, lanes);
+  store_index(out.index + n, index, lanes);
+  return n + static_cast<std::size_t>(std::popcount(mask));
+}
+
+GRASPD_AVX2 std::size_t keep_inside(const BoxTest& test, const PointRange& points,
+                                    std::span<const PointSpan> spans, const LocalOutput& out) {
   const Box box(test);
+  LocalBlock local;
   std::size_t n = 0;
-  for (std::size_t k = 0; k < points.size; k += 8) {
-    const __m256 x = _mm256_loadu_ps(points.x + k), y = _mm256_loadu_ps(points.y + k),
-                 z = _mm256_loadu_ps(points.z + k);
-    const __m256 a = box.local(0, x, y, z), f = box.local(1, x, y, z), d = box.local(2, x, y, z);
-    const __m256 inside = _mm256_and_ps(_mm256_and_ps(box.within(0, a), box.within(1, f)), box.within(2, d));
-    const unsigned mask = valid_lanes(_mm256_movemask_ps(inside), k, points.size);
-    if (mask == 0) continue;
-    const __m256i lanes = lanes_of(mask);
-    store(out.a + n, a, lanes);
-    store(out.f + n, f, lanes);
-    store(out.z + n, d, lanes);
-    store_index(out.index + n, points.index + k, lanes);
-    n += static_cast<std::size_t>(std::popcount(mask));
+  for (const PointSpan& span : spans) {
+    std::size_t k = span.begin;
+    for (; k + 8 <= span.end; k += 8)
+      if (const unsigned mask = inside_lanes(box, points, k, local); mask != 0)
+        n = write_lanes(mask, local, points.index + k, out, n);
+    if (k == span.end) continue;
+    if (const unsigned mask = inside_lanes(box, points, k, local) & first_lanes(span.end - k); mask != 0)
+      n = write_lanes(mask, local, points.index + k, out, n);
   }
   return n;
 }
 
-GRASPD_AVX2 std::size_t count_inside(const BoxTest& test, const PointRange& points) {
+GRASPD_AVX2 std::size_t count_inside(const BoxTest& test, const PointRange& points,
+                                     std::span<const PointSpan> spans, std::size_t enough) {
   const Box box(test);
+  LocalBlock local;
   std::size_t n = 0;
-  for (std::size_t k = 0; k < points.size; k += 8) {
-    const __m256 x = _mm256_loadu_ps(points.x + k), y = _mm256_loadu_ps(points.y + k),
-                 z = _mm256_loadu_ps(points.z + k);
-    const __m256 inside = _mm256_and_ps(
-        _mm256_and_ps(box.within(0, box.local(0, x, y, z)), box.within(1, box.local(1, x, y, z))),
-        box.within(2, box.local(2, x, y, z)));
-    const unsigned mask = valid_lanes(_mm256_movemask_ps(inside), k, points.size);
+  for (auto span = spans.begin(); span != spans.end() && n <= enough; ++span) {
+    std::size_t k = span->begin;
+    for (; k + 8 <= span->end; k += 8)
+      n += static_cast<std::size_t>(std::popcount(inside_lanes(box, points, k, local)));
+    if (k == span->end) continue;
+    const unsigned mask = inside_lanes(box, points, k, local) & first_lanes(span->end - k);
     n += static_cast<std::size_t>(std::popcount(mask));
   }
   return n;
@@ -189,6 +220,36 @@ GRASPD_AVX2 inline __m256i floor_to_int(__m256 v) {
   return _mm256_add_epi32(truncated, _mm256_castps_si256(above));  // the mask is -1 where that rounded up
 }
 
+GRASPD_AVX2 void meet_rows(const RowLimits& limits, const CellRows& rows, std::int32_t* from,
+                           std::int32_t* to) {
+  __m256 least[4], most[4], slope[4];
+  for (int k = 0; k < 4; ++k) {
+    least[k] = _mm256_set1_ps(limits.least[k]);
+    most[k] = _mm256_set1_ps(limits.most[k]);
+    slope[k] = _mm256_set1_ps(limits.slope[k]);
+  }
+  const __m256 cell = _mm256_set1_ps(limits.cell_m), per_cell = _mm256_set1_ps(1 / limits.cell_m);
+  const __m256i zero = _mm256_setzero_si256(), one = _mm256_set1_epi32(1);
+  for (std::size_t i = 0; i < rows.size; i += 8) {
+    const __m256 y =
+        _mm256_mul_ps(_mm256_add_ps(_mm256_cvtepi32_ps(load(rows.y + i)), _mm256_set1_ps(0.5f)), cell);
+    __m256 moved = _mm256_mul_ps(slope[0], y);
+    __m256 x0 = _mm256_sub_ps(least[0], moved), x1 = _mm256_sub_ps(most[0], moved);
+    for (int k = 1; k < 4; ++k) {
+      moved = _mm256_mul_ps(slope[k], y);
+      x0 = _mm256_max_ps(_mm256_sub_ps(least[k], moved), x0);
+      x1 = _mm256_min_ps(_mm256_sub_ps(most[k], moved), x1);
+    }
+    const __m256i x = load(rows.x + i);
+    const __m256i first = _mm256_sub_epi32(floor_to_int(_mm256_mul_ps(x0, per_cell)), x),
+                  end = _mm256_sub_epi32(_mm256_add_epi32(floor_to_int(_mm256_mul_ps(x1, per_cell)), one), x);
+    const __m256i none = _mm256_castps_si256(_mm256_cmp_ps(x0, x1, _CMP_GT_OQ));
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(from + i), _mm256_max_epi32(zero, first));
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(to + i),
+                        _mm256_andnot_si256(none, _mm256_min_epi32(load(rows.num_cells + i), end)));
+  }
+}
+
 GRASPD_AVX2 inline __m256i cells_from_first(const float* v, __m256 per_cell, int min_cell) {
   return _mm256_sub_epi32(floor_to_int(_mm256_mul_ps(_mm256_loadu_ps(v), per_cell)),
                           _mm256_set1_epi32(min_cell));
@@ -215,17 +276,19 @@ GRASPD_AVX2 void tag_band(const BandTags& tags, const BandPoints& points, std::i
                           std::int32_t* marks) {
   const __m256 first = _mm256_set1_ps(tags.first), bin = _mm256_set1_ps(tags.bin);
   const __m256i object = _mm256_set1_epi32(tags.object), left_out = _mm256_set1_epi32(tags.left_out),
-                last = _mm256_set1_epi32(tags.num_bins - 1), no_mark = _mm256_set1_epi32(tags.no_mark());
+                last = _mm256_set1_epi32(tags.num_bins - 1), no_mark = _mm256_set1_epi32(tags.no_mark()),
+                stride = _mm256_set1_epi32(static_cast<int>(tags.stride()));
   std::size_t k = 0;
   for (; k + 8 <= points.size; k += 8) {
     const __m256i of_point =
         _mm256_i32gather_epi32(tags.object_of_point, load(points.index + k), sizeof(std::int32_t));
-    const __m256i is_own = _mm256_srli_epi32(_mm256_cmpeq_epi32(of_point, object), 31);
+    const __m256i same = _mm256_cmpeq_epi32(of_point, object);
+    const __m256i is_own = _mm256_srli_epi32(same, 31);
     const __m256i b = floor_to_int(_mm256_div_ps(_mm256_sub_ps(_mm256_loadu_ps(points.f + k), first), bin));
     const __m256i outside = _mm256_or_si256(b, _mm256_cmpgt_epi32(b, last));  // by its sign
     const __m256i none =
         _mm256_or_si256(_mm256_cmpeq_epi32(of_point, left_out), _mm256_srai_epi32(outside, 31));
-    const __m256i mark = _mm256_or_si256(_mm256_add_epi32(b, b), is_own);
+    const __m256i mark = _mm256_add_epi32(b, _mm256_and_si256(same, stride));
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(own + k), is_own);
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(marks + k), _mm256_blendv_epi8(mark, no_mark, none));
   }
@@ -274,8 +337,8 @@ GRASPD_AVX2 std::size_t select_band(const BandLimits& limits, const BandPoints& 
 }  // namespace
 
 const PointKernels* avx2_kernels() {
-  static constexpr PointKernels kKernels{keep_inside,  count_inside, keep_near,   sum_moments, extend_bounds,
-                                         number_cells, tag_band,     keep_depths, select_band};
+  static constexpr PointKernels kKernels{keep_inside,   count_inside, meet_rows, keep_near,   sum_moments,
+                                         extend_bounds, number_cells, tag_band,  keep_depths, select_band};
   static const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("popcnt");
   return has_avx2 ? &kKernels : nullptr;
 }
