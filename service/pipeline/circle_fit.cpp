@@ -4,11 +4,13 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
-#include <vector>
+
+#include "service/pipeline/point_kernels.hpp"
 
 namespace graspd {
 namespace {
@@ -21,63 +23,66 @@ constexpr float kMinNearShare = 0.85f;
 constexpr int kSectors = 36;
 constexpr int kMinSectors = 6;
 
-/// Weighted algebraic fit: x^2 + y^2 = 2 cx x + 2 cy y + c, about the mean to keep the numbers small.
-Circle algebraic_fit(const std::vector<Eigen::Vector2f>& points, const std::vector<float>& weights,
-                     const Eigen::Vector2f& mean) {
-  Eigen::Matrix3d A = Eigen::Matrix3d::Identity() * 1e-12;
-  Eigen::Vector3d b = Eigen::Vector3d::Zero();
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Eigen::Vector2d p = (points[i] - mean).cast<double>();
-    const Eigen::Vector3d row(2 * p.x(), 2 * p.y(), 1);
-    A += weights[i] * row * row.transpose();
-    b += weights[i] * p.squaredNorm() * row;
+/// Points about their mean, which keeps the numbers small.
+class Sample {
+ public:
+  Sample(std::span<const Eigen::Vector2f> points, std::size_t step) {
+    for (std::size_t i = 0; i < points.size(); i += step) mean_ += points[i];
+    size_ = (points.size() + step - 1) / step;
+    mean_ /= static_cast<float>(size_);
+    for (std::size_t k = 0; k < size_; ++k) {
+      x_[k] = points[k * step].x() - mean_.x();
+      y_[k] = points[k * step].y() - mean_.y();
+    }
   }
-  const Eigen::Vector3d c = A.ldlt().solve(b);
-  const double radius = std::sqrt(std::max(0.0, c[2] + c.head<2>().squaredNorm()));
-  return {mean + c.head<2>().cast<float>(), static_cast<float>(radius)};
-}
 
-float distance(const Circle& circle, const Eigen::Vector2f& p) {
-  return std::abs((p - circle.center).norm() - circle.radius);
-}
-
-bool describes(const Circle& circle, const std::vector<Eigen::Vector2f>& points) {
-  std::size_t near = 0;
-  std::uint64_t sectors = 0;
-  for (const Eigen::Vector2f& p : points) {
-    if (distance(circle, p) > kNear) continue;
-    ++near;
-    const Eigen::Vector2f d = p - circle.center;
-    const float turn = std::atan2(d.y(), d.x()) / (2 * std::numbers::pi_v<float>)+0.5f;
-    sectors |= std::uint64_t{1} << std::min(kSectors - 1, static_cast<int>(turn * kSectors));
+  /// Algebraic fit: x^2 + y^2 = 2 cx x + 2 cy y + c.
+  [[nodiscard]] Circle fit(const CircleWeights& weights) const {
+    const CircleSums s = point_kernels().sum_circle(weights, x_.data(), y_.data(), size_);
+    constexpr double kRegular = 1e-12;
+    Eigen::Matrix3d A;
+    A << 4 * s.xx + kRegular, 4 * s.xy, 2 * s.x, 4 * s.xy, 4 * s.yy + kRegular, 2 * s.y, 2 * s.x, 2 * s.y,
+        s.n + kRegular;
+    const Eigen::Vector3d c = A.ldlt().solve(Eigen::Vector3d(2 * s.qx, 2 * s.qy, s.q));
+    const double radius = std::sqrt(std::max(0.0, c[2] + c.head<2>().squaredNorm()));
+    return {c.head<2>().cast<float>(), static_cast<float>(radius)};
   }
-  return static_cast<float>(near) >= kMinNearShare * static_cast<float>(points.size()) &&
-         std::popcount(sectors) >= kMinSectors;
-}
+
+  /// Whether most points belong to the circle, and to more than a small part of it.
+  [[nodiscard]] bool is_described_by(const Circle& circle) const {
+    std::size_t near = 0;
+    std::uint64_t sectors = 0;
+    for (std::size_t k = 0; k < size_; ++k) {
+      const Eigen::Vector2f d = Eigen::Vector2f(x_[k], y_[k]) - circle.center;
+      if (std::abs(d.norm() - circle.radius) > kNear) continue;
+      ++near;
+      const float turn = std::atan2(d.y(), d.x()) / (2 * std::numbers::pi_v<float>)+0.5f;
+      sectors |= std::uint64_t{1} << std::min(kSectors - 1, static_cast<int>(turn * kSectors));
+    }
+    return static_cast<float>(near) >= kMinNearShare * static_cast<float>(size_) &&
+           std::popcount(sectors) >= kMinSectors;
+  }
+
+  [[nodiscard]] const Eigen::Vector2f& mean() const { return mean_; }
+
+ private:
+  std::array<float, kMostPoints + kPointPadding> x_, y_;
+  std::size_t size_;
+  Eigen::Vector2f mean_ = Eigen::Vector2f::Zero();
+};
 
 }  // namespace
 
 std::optional<Circle> fit_circle(std::span<const Eigen::Vector2f> points, float max_radius_m) {
   if (points.size() < kMinPoints) return std::nullopt;
-  std::vector<Eigen::Vector2f> sample;
-  const std::size_t step = (points.size() + kMostPoints - 1) / kMostPoints;
-  Eigen::Vector2f mean = Eigen::Vector2f::Zero();
-  for (std::size_t i = 0; i < points.size(); i += step) {
-    sample.push_back(points[i]);
-    mean += points[i];
-  }
-  mean /= static_cast<float>(sample.size());
-  std::vector<float> weights(sample.size(), 1.0f);
+  const Sample sample(points, (points.size() + kMostPoints - 1) / kMostPoints);
   Circle circle;
   for (int round = 0; round < 4; ++round) {
-    circle = algebraic_fit(sample, weights, mean);
+    circle = sample.fit({circle.center.x(), circle.center.y(), circle.radius, round == 0 ? 0 : 1 / kScale});
     if (!(circle.radius <= max_radius_m)) return std::nullopt;
-    for (std::size_t i = 0; i < sample.size(); ++i) {
-      const float e = distance(circle, sample[i]) / kScale;
-      weights[i] = 1 / (1 + e * e);
-    }
   }
-  if (!describes(circle, sample)) return std::nullopt;
+  if (!sample.is_described_by(circle)) return std::nullopt;
+  circle.center += sample.mean();
   return circle;
 }
 

@@ -89,8 +89,7 @@ void add_for_parts_without(const Surfaces& surfaces, std::vector<FoundHandle> of
 
 FoundHandles find_handles(const PointCloud& cloud, const PointIndex& index, const Surfaces& surfaces,
                           const Gripper& gripper, const DetectConfig& config) {
-  const float leaf = config.downsample.leaf_size_m;
-  const CheckedScene scene{cloud, index, surfaces, leaf * leaf};
+  const CheckedScene scene{cloud, index, surfaces};
   Settler settler(gripper, config.check);
   SearchResult result;
   result.segments = start_reports(surfaces);

@@ -17,9 +17,9 @@ namespace graspd {
 namespace {
 
 constexpr float kPointCell = 0.015f;  // of the grid for box queries [m]
-constexpr int kVoxelTolerance =
-    2;  // stray points a volume may have: counts are absolute, noise does not scale
-constexpr int kPointTolerance = 4;
+// Stray points a volume may have: counts are absolute, noise does not scale.
+constexpr int kSparseTolerance = 2, kPointTolerance = 4;
+constexpr int kMinSparse = 6, kMinPoints = 12;  // of the object between the jaws
 
 using Results = std::vector<CheckResult>;
 
@@ -87,12 +87,13 @@ std::vector<std::size_t> best_of_objects(const std::vector<Candidate>& candidate
   return order;
 }
 
-/// The candidates that pass among the voxels, the most promising ones of each object; counts those that fail.
-std::vector<Candidate> prefilter(const SceneView& voxels, const Gripper& gripper,
+/// The candidates that pass in the sparse copy, the most promising ones of each object; counts those that
+/// fail.
+std::vector<Candidate> prefilter(const SceneView& sparse, const Gripper& gripper,
                                  const HandleCheckConfig& config, const std::vector<Candidate>& candidates,
                                  const ObjectOutlines& outlines, SearchResult& out) {
   constexpr std::size_t kMostOfAnObject = 12;
-  const Results coarse = check_all(voxels, gripper, config, candidates, &outlines);
+  const Results coarse = check_all(sparse, gripper, config, candidates, &outlines);
   std::vector<Candidate> passed;
   std::vector<float> scores;
   passed.reserve(candidates.size());
@@ -105,7 +106,7 @@ std::vector<Candidate> prefilter(const SceneView& voxels, const Gripper& gripper
     passed.push_back(candidates[i]);
     scores.push_back(score(coarse[i].margins));
   }
-  // A few that passed among the voxels hold the few that are published.
+  // A few that passed in the sparse copy hold the few that are published.
   std::vector<Candidate> promising;
   promising.reserve(passed.size());
   for (const std::size_t i : best_of_objects(passed, scores, kMostOfAnObject)) promising.push_back(passed[i]);
@@ -125,7 +126,8 @@ int enough_before(SearchRound round) {
   return 0;
 }
 
-/// What voxels measure is off by up to half a voxel at either end: they refuse only what is clearly wrong.
+/// What a sparse copy measures is off by up to half its spacing at either end: it refuses only what is
+/// clearly wrong.
 HandleCheckConfig coarse_limits(HandleCheckConfig limits) {
   limits.max_silhouette_angle_deg = std::min(80.0f, limits.max_silhouette_angle_deg + 6);
   limits.max_wall_angle_deg = std::min(80.0f, limits.max_wall_angle_deg + 6);
@@ -146,30 +148,32 @@ GuessSearch::GuessSearch(const CheckedScene& scene, const Objects& objects, cons
       gripper_(gripper),
       config_(config),
       object_of_point_(spread_to_points(objects.of_point, scene.surfaces.voxel_of_point)),
+      object_of_sparse_(spread_to_points(objects.of_point, scene.surfaces.sparse.voxel)),
       outlines_(scene.surfaces.cloud, objects.of_point, objects.num_objects),
       coarse_check_(coarse_limits(config.check)),
       input_{scene.surfaces.cloud, scene.surfaces.normals, scene.surfaces.segments, objects,
              scene.surfaces.support},
-      voxels_{scene.surfaces.cloud,
-              scene.surfaces.query,
-              objects.of_point,
+      sparse_{scene.surfaces.sparse.cloud,
+              scene.surfaces.sparse.query,
+              object_of_sparse_,
               scene.surfaces.normals,
-              nullptr,
+              scene.surfaces.sparse.voxel,
               scene.surfaces.support,
               scene.index.depth_map,
               object_of_point_,
-              scene.voxel_area_m2,
-              kVoxelTolerance},
+              kSparseTolerance,
+              kMinSparse,
+              scene.surfaces.sparse.spacing_m},
       points_{scene.cloud,
               scene.index.query,
               object_of_point_,
               scene.surfaces.normals,
-              &scene.surfaces.voxel_of_point,
+              scene.surfaces.voxel_of_point,
               scene.surfaces.support,
               scene.index.depth_map,
               object_of_point_,
-              scene.voxel_area_m2,
-              kPointTolerance} {}
+              kPointTolerance,
+              kMinPoints} {}
 
 void GuessSearch::run(const std::vector<std::uint8_t>& wanted, SearchResult& out) const {
   const HandleSearch search(input_, gripper_, config_.search, wanted);
@@ -179,7 +183,7 @@ void GuessSearch::run(const std::vector<std::uint8_t>& wanted, SearchResult& out
     for (std::size_t k = 0; k < open.size(); ++k)
       if (handles_of_object[k] >= enough_before(round)) open[k] = 0;
     const std::vector<Candidate> left =
-        prefilter(voxels_, gripper_, coarse_check_, search.candidates(round, open), outlines_, out);
+        prefilter(sparse_, gripper_, coarse_check_, search.candidates(round, open), outlines_, out);
     const Results fine = check_all(points_, gripper_, config_.check, left, nullptr);
     for (std::size_t k = 0; k < left.size(); ++k) {
       count(left[k], fine[k].failure, out);

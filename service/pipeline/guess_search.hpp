@@ -23,12 +23,11 @@ struct PointIndex {
   explicit PointIndex(const PointCloud& cloud, const ImagePixels& pixels = {});
 };
 
-/// The cloud in both resolutions. References must outlive it.
+/// The cloud in all resolutions. References must outlive it.
 struct CheckedScene {
   const PointCloud& cloud;
   const PointIndex& index;
   const Surfaces& surfaces;
-  float voxel_area_m2;
 };
 
 /// A handle whose steadiness has not been looked at: its score is an upper bound.
@@ -60,11 +59,11 @@ class GuessSearch {
   const Objects& objects_;
   const Gripper& gripper_;
   const DetectConfig& config_;
-  std::vector<std::int32_t> object_of_point_;
+  std::vector<std::int32_t> object_of_point_, object_of_sparse_;
   ObjectOutlines outlines_;
   HandleCheckConfig coarse_check_;
   SearchInput input_;
-  SceneView voxels_, points_;
+  SceneView sparse_, points_;
 };
 
 }  // namespace graspd

@@ -15,7 +15,6 @@
 namespace graspd {
 namespace {
 
-constexpr int kMinOwnPoints = 12;
 constexpr float kAmpleRoom = 0.25f;  // share of the aperture left free from which on more does not matter
 constexpr float kThin = 0.012f, kThick = 0.022f;  // of objects: narrower is doubtful, wider is not [m]
 constexpr float kAmpleArea = 5e-4f;               // seen between the jaws, beyond what must be [m2]
@@ -104,7 +103,7 @@ Failure Check::check_volumes() {
   keep_own(all);
   const auto own = static_cast<int>(between_.size());
   handle_.num_points = own;
-  if (own < kMinOwnPoints) return Failure::kTooFewPoints;
+  if (own < scene_.min_points) return Failure::kTooFewPoints;
   if (static_cast<float>(own) < config_.min_own_share * static_cast<float>(all)) return Failure::kNoGap;
   const float beside = std::nextafter(half, 1.0f);
   const auto fingers = static_cast<int>(select(beside, half + g.finger_width_m, palm_top, g.grasp_depth_m));
@@ -239,9 +238,11 @@ float Check::finger_hidden_share(int side, bool by_others) const {
   return hidden_share(sign * half, sign * (half + gripper_.finger_width_m), z0, l, by_others);
 }
 
-/// Every measured point stands for the patch of surface that its ray meets; every voxel for its face.
+/// Every measured point stands for the patch of surface that its ray meets; every one of a sparse copy for
+/// its cell's face.
 float Check::area_per_point() const {
-  return scene_.voxel ? scene_.depth_map.ray_area(handle_.position) : scene_.voxel_area_m2;
+  return scene_.is_sparse() ? scene_.spacing_m * scene_.spacing_m
+                            : scene_.depth_map.ray_area(handle_.position);
 }
 
 void Check::set_width_from(const Contact& low, const Contact& high) {

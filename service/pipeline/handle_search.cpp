@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "service/pipeline/cell_order.hpp"
+#include "service/pipeline/thin_out.hpp"
 
 namespace graspd {
 namespace {
@@ -110,22 +111,14 @@ HandleSearch::HandleSearch(const SearchInput& input, const Gripper& gripper, con
   });
 }
 
-/// In each occupied cell of the spacing the point nearest to the mean of those in it.
 std::vector<HandleSearch::Seed> HandleSearch::spread_seeds(const std::vector<std::uint32_t>& points) const {
   PointCloud own;
   for (const std::uint32_t i : points) own.push_back(in_.cloud.point(i));
-  const CellOrder order = order_by_cell(own, config_.seed_spacing_m);
   const PaddedPoints object(in_.cloud, points);
   std::vector<std::uint32_t> near;
   std::vector<Seed> seeds;
-  for (std::size_t c = 0; c < order.num_cells(); ++c) {
-    Eigen::Vector3f mean = Eigen::Vector3f::Zero();
-    for (const std::uint32_t k : order.cell(c)) mean += own.point(k);
-    mean /= static_cast<float>(order.cell(c).size());
-    const auto nearer = [&](std::uint32_t a, std::uint32_t b) {
-      return (own.point(a) - mean).squaredNorm() < (own.point(b) - mean).squaredNorm();
-    };
-    const std::uint32_t seed = points[*std::min_element(order.cell(c).begin(), order.cell(c).end(), nearer)];
+  for (const std::uint32_t k : thin_out(own, config_.seed_spacing_m)) {
+    const std::uint32_t seed = points[k];
     if (in_.segments.of_point[seed] >= 0)
       seeds.push_back({seed, outward_directions(seed, face_normal(in_, object, seed, near))});
   }

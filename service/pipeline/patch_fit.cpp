@@ -92,7 +92,7 @@ float raise_for_obstacles(const SceneView& scene, const Gripper& g, const Handle
 /// How far the profile goes: so that a patch as wide as the aperture that begins in the middle shows its gap,
 /// and among all points, where handles are made, the free space beside it.
 float profile_reach(const SceneView& scene, const Gripper& g) {
-  return (scene.voxel ? 1.5f : 1.0f) * g.aperture_m + g.min_gap_m;
+  return (scene.is_sparse() ? 1.0f : 1.5f) * g.aperture_m + g.min_gap_m;
 }
 
 /// The patch around position f0: between the nearest gaps on both sides, at depths down to l below top.

@@ -142,6 +142,21 @@ void number_cells(const CellGrid& grid, const float* x, const float* y, const fl
     out[i] = from_first(x[i], 0) + grid.row * from_first(y[i], 1) + grid.layer * from_first(z[i], 2);
 }
 
+CircleSums sum_circle(const CircleWeights& weights, const float* xs, const float* ys, std::size_t n) {
+  double parts[9][4] = {};
+  for (std::size_t i = 0; i < n; ++i) {
+    const float dx = xs[i] - weights.x, dy = ys[i] - weights.y;
+    const float e = (std::sqrt(dx * dx + dy * dy) - weights.radius) * weights.per_scale;
+    const double w = double{1 / (1 + e * e)}, x = double{xs[i]}, y = double{ys[i]};
+    const double wx = w * x, wy = w * y, wq = w * (x * x + y * y);
+    const double terms[9] = {w, wx, wy, wx * x, wx * y, wy * y, wq, wq * x, wq * y};
+    for (int k = 0; k < 9; ++k) parts[k][i % 4] += terms[k];
+  }
+  double sum[9];
+  for (int k = 0; k < 9; ++k) sum[k] = parts[k][0] + parts[k][1] + parts[k][2] + parts[k][3];
+  return {sum[0], sum[1], sum[2], sum[3], sum[4], sum[5], sum[6], sum[7], sum[8]};
+}
+
 void tag_band(const BandTags& tags, const BandPoints& points, std::int32_t* own, std::int32_t* marks) {
   const auto stride = static_cast<std::int32_t>(tags.stride());
   for (std::size_t k = 0; k < points.size; ++k)
@@ -179,8 +194,9 @@ std::size_t select_band(const BandLimits& limits, const BandPoints& points, std:
 }  // namespace
 
 const PointKernels& portable_kernels() {
-  static constexpr PointKernels kKernels{keep_inside,   count_inside, meet_rows, keep_near,   sum_moments,
-                                         extend_bounds, number_cells, tag_band,  keep_depths, select_band};
+  static constexpr PointKernels kKernels{keep_inside, count_inside, meet_rows,     keep_near,
+                                         sum_moments, sum_circle,   extend_bounds, number_cells,
+                                         tag_band,    keep_depths,  select_band};
   return kKernels;
 }
 

@@ -90,6 +90,18 @@ struct Moments {
   float x, y, z, xx, xy, xz, yy, yz, zz;
 };
 
+/// Of points in a plane, about a place of one's own: each has the weight 1 / (1 + e^2) by its distance e from
+/// a circle, in units of a scale.
+struct CircleWeights {
+  float x, y, radius;  ///< [m]
+  float per_scale;     ///< 1 / scale [1/m]; 0: all weights are 1
+};
+
+/// Weighted sums over them; q is x^2 + y^2.
+struct CircleSums {
+  double n, x, y, xx, xy, yy, q, qx, qy;
+};
+
 struct PointKernels {
   /// Writes the points of some spans that are inside, in their order; returns their number.
   std::size_t (*keep_inside)(const BoxTest& box, const PointRange& points, std::span<const PointSpan> spans,
@@ -108,6 +120,9 @@ struct PointKernels {
   /// be those of points. Summed in eight parts, every eighth neighbour in one, which are added in order.
   Moments (*sum_moments)(const float (&p)[3], const float* x, const float* y, const float* z,
                          const std::uint32_t* indices, std::size_t n);
+  /// Summed in four parts, every fourth point in one, which are added in order. As many as kPointPadding more
+  /// points must be readable.
+  CircleSums (*sum_circle)(const CircleWeights& weights, const float* x, const float* y, std::size_t n);
   /// Widens [low, high] to hold n values; passes over NaN.
   void (*extend_bounds)(const float* v, std::size_t n, float& low, float& high);
   /// Writes the number of the cell of each of n points.

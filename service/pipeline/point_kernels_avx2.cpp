@@ -197,6 +197,54 @@ GRASPD_AVX2 Moments sum_moments(const float (&p)[3], const float* x, const float
   return sums_of_lanes(sum);
 }
 
+GRASPD_AVX2 inline double sum_in_order(__m256d v) {
+  alignas(32) double part[4];
+  _mm256_store_pd(part, v);
+  return part[0] + part[1] + part[2] + part[3];
+}
+
+/// Adds what four points give to their four parts.
+GRASPD_AVX2 inline void add_to_circle(__m128 xs, __m128 ys, __m128 weights, __m256d (&sum)[9]) {
+  const __m256d x = _mm256_cvtps_pd(xs), y = _mm256_cvtps_pd(ys), w = _mm256_cvtps_pd(weights);
+  const __m256d wx = _mm256_mul_pd(w, x), wy = _mm256_mul_pd(w, y),
+                wq = _mm256_mul_pd(w, _mm256_add_pd(_mm256_mul_pd(x, x), _mm256_mul_pd(y, y)));
+  sum[0] = _mm256_add_pd(sum[0], w);
+  sum[1] = _mm256_add_pd(sum[1], wx);
+  sum[2] = _mm256_add_pd(sum[2], wy);
+  sum[3] = _mm256_add_pd(sum[3], _mm256_mul_pd(wx, x));
+  sum[4] = _mm256_add_pd(sum[4], _mm256_mul_pd(wx, y));
+  sum[5] = _mm256_add_pd(sum[5], _mm256_mul_pd(wy, y));
+  sum[6] = _mm256_add_pd(sum[6], wq);
+  sum[7] = _mm256_add_pd(sum[7], _mm256_mul_pd(wq, x));
+  sum[8] = _mm256_add_pd(sum[8], _mm256_mul_pd(wq, y));
+}
+
+GRASPD_AVX2 CircleSums sum_circle(const CircleWeights& weights, const float* xs, const float* ys,
+                                  std::size_t n) {
+  const __m256 cx = _mm256_set1_ps(weights.x), cy = _mm256_set1_ps(weights.y),
+               radius = _mm256_set1_ps(weights.radius), per_scale = _mm256_set1_ps(weights.per_scale),
+               one = _mm256_set1_ps(1);
+  const __m256i lane = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+  __m256d sum[9];
+  for (__m256d& s : sum) s = _mm256_setzero_pd();
+  for (std::size_t i = 0; i < n; i += 8) {
+    // Points beyond the last are zero and have no weight.
+    const __m256 valid =
+        _mm256_castsi256_ps(_mm256_cmpgt_epi32(_mm256_set1_epi32(static_cast<int>(n - i)), lane));
+    const __m256 x = _mm256_and_ps(valid, _mm256_loadu_ps(xs + i)),
+                 y = _mm256_and_ps(valid, _mm256_loadu_ps(ys + i));
+    const __m256 dx = _mm256_sub_ps(x, cx), dy = _mm256_sub_ps(y, cy);
+    const __m256 distance = _mm256_sqrt_ps(_mm256_add_ps(_mm256_mul_ps(dx, dx), _mm256_mul_ps(dy, dy)));
+    const __m256 e = _mm256_mul_ps(_mm256_sub_ps(distance, radius), per_scale);
+    const __m256 w = _mm256_and_ps(valid, _mm256_div_ps(one, _mm256_add_ps(one, _mm256_mul_ps(e, e))));
+    add_to_circle(_mm256_castps256_ps128(x), _mm256_castps256_ps128(y), _mm256_castps256_ps128(w), sum);
+    add_to_circle(_mm256_extractf128_ps(x, 1), _mm256_extractf128_ps(y, 1), _mm256_extractf128_ps(w, 1), sum);
+  }
+  double total[9];
+  for (int k = 0; k < 9; ++k) total[k] = sum_in_order(sum[k]);
+  return {total[0], total[1], total[2], total[3], total[4], total[5], total[6], total[7], total[8]};
+}
+
 GRASPD_AVX2 void extend_bounds(const float* v, std::size_t n, float& low, float& high) {
   __m256 lows = _mm256_set1_ps(low), highs = _mm256_set1_ps(high);
   std::size_t i = 0;
@@ -337,8 +385,9 @@ GRASPD_AVX2 std::size_t select_band(const BandLimits& limits, const BandPoints& 
 }  // namespace
 
 const PointKernels* avx2_kernels() {
-  static constexpr PointKernels kKernels{keep_inside,   count_inside, meet_rows, keep_near,   sum_moments,
-                                         extend_bounds, number_cells, tag_band,  keep_depths, select_band};
+  static constexpr PointKernels kKernels{keep_inside, count_inside, meet_rows,     keep_near,
+                                         sum_moments, sum_circle,   extend_bounds, number_cells,
+                                         tag_band,    keep_depths,  select_band};
   static const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("popcnt");
   return has_avx2 ? &kKernels : nullptr;
 }

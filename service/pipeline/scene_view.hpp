@@ -21,15 +21,16 @@ struct SceneView {
   const BoxQuery& query;
   const std::vector<std::int32_t>& object;  ///< object of each point, kSupportObject, or -1
   const Normals& normals;                   ///< of the voxels
-  const std::vector<std::uint32_t>* voxel;  ///< voxel of each point; null: the points are the voxels
+  const std::vector<std::uint32_t>& voxel;  ///< of each point
   const std::optional<Support>& support;
   const DepthMap& depth_map;
   const std::vector<std::int32_t>& depth_map_object;  ///< object of each point that the depth map was made of
-  float voxel_area_m2 = 0;                            ///< of the surface that one voxel stands for
   int tolerance = 0;                                  ///< stray points allowed in a volume that must be free
+  int min_points = 0;                                 ///< of the object between the jaws
+  float spacing_m = 0;  ///< of a sparse copy, which is even; 0 for the points as they were measured
 
-  [[nodiscard]] std::uint32_t voxel_of(std::uint32_t point) const { return voxel ? (*voxel)[point] : point; }
-  [[nodiscard]] Eigen::Vector3f normal(std::uint32_t point) const { return normals.at(voxel_of(point)); }
+  [[nodiscard]] bool is_sparse() const { return spacing_m > 0; }
+  [[nodiscard]] Eigen::Vector3f normal(std::uint32_t point) const { return normals.at(voxel[point]); }
 };
 
 }  // namespace graspd

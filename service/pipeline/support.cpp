@@ -50,7 +50,7 @@ struct Sample {
 };
 
 /// Every k-th point: voxels are spread evenly over surfaces, so that this is too.
-Sample thin_out(CoarseSurface& coarse) {
+Sample take_sample(CoarseSurface& coarse) {
   const std::size_t step = std::max<std::size_t>(1, coarse.size() / kSampleSize);
   std::vector<std::uint8_t> wanted(coarse.size(), step < kFewTimes ? 1 : 0);
   for (std::size_t i = 0; i < coarse.size(); i += step) wanted[i] = 1;
@@ -233,7 +233,7 @@ std::optional<Support> find_support(const PointCloud& cloud, const SupportConfig
   CoarseSurface coarse(cloud, config.leaf_size_m);
   const PlaneLimits limits{config.thickness_m,
                            std::cos(config.max_normal_angle_deg * std::numbers::pi_v<float> / 180)};
-  const auto hypothesis = best_hypothesis(thin_out(coarse), config, limits.min_cosine, cloud.viewpoint);
+  const auto hypothesis = best_hypothesis(take_sample(coarse), config, limits.min_cosine, cloud.viewpoint);
   if (!hypothesis) return std::nullopt;
   Support support;
   const auto upper_points =

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/pipeline/surfaces.hpp"
 
+#include "service/pipeline/thin_out.hpp"
+
 #include <tbb/parallel_invoke.h>
 
 #include <utility>
@@ -9,7 +11,8 @@
 namespace graspd {
 namespace {
 
-constexpr float kQueryCell = 0.02f;  // of the grid for box queries [m]
+constexpr float kQueryCell = 0.02f;     // of the grid for box queries [m]
+constexpr float kSparseLeaves = 1.33f;  // between the voxels of first looks: with more, objects are missed
 
 /// The support's points have the plane's normal.
 Normals surface_normals(const PointCloud& cloud, const Neighborhoods& neighborhoods,
@@ -41,6 +44,22 @@ bool take_out_container(const Surfaces& s, const DetectConfig& config, std::vect
     labels.of_point[i] = -1;
   }
   return !is_wall.empty();
+}
+
+SparseVoxels spread_thinly(const PointCloud& voxels, float spacing_m) {
+  SparseVoxels sparse;
+  sparse.spacing_m = spacing_m;
+  sparse.voxel = thin_out(voxels, spacing_m);
+  sparse.cloud.viewpoint = voxels.viewpoint;
+  sparse.cloud.resize(sparse.voxel.size());
+  sparse.cloud.width = static_cast<int>(sparse.voxel.size());
+  for (std::size_t k = 0; k < sparse.voxel.size(); ++k) {
+    sparse.cloud.x[k] = voxels.x[sparse.voxel[k]];
+    sparse.cloud.y[k] = voxels.y[sparse.voxel[k]];
+    sparse.cloud.z[k] = voxels.z[sparse.voxel[k]];
+  }
+  sparse.query = BoxQuery(sparse.cloud, kQueryCell);
+  return sparse;
 }
 
 /// From normals to segments and objects.
@@ -86,8 +105,9 @@ Surfaces find_surfaces(const PointCloud& cloud, const DetectConfig& config, cons
     s.normals = surface_normals(s.cloud, neighborhoods, s.support);
   }
   done("smoothing");
-  tbb::parallel_invoke([&] { s.query = BoxQuery(s.cloud, kQueryCell); },
-                       [&] { find_objects(neighborhoods, config, done, s); });
+  tbb::parallel_invoke(
+      [&] { s.sparse = spread_thinly(s.cloud, kSparseLeaves * config.downsample.leaf_size_m); },
+      [&] { find_objects(neighborhoods, config, done, s); });
   return s;
 }
 

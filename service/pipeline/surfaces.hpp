@@ -16,10 +16,18 @@ namespace graspd {
 /// Called with a stage's name when the stage is done; the caller keeps the time.
 using StageObserver = std::function<void(std::string_view stage)>;
 
+/// Voxels spread more thinly, for first looks at many candidates.
+struct SparseVoxels {
+  PointCloud cloud;
+  std::vector<std::uint32_t> voxel;  ///< that each of them is
+  float spacing_m = 0;
+  BoxQuery query;
+};
+
 /// Everything that is known of the voxels' surfaces; vectors have one element a voxel.
 struct Surfaces {
   PointCloud cloud;
-  BoxQuery query;                             ///< of the voxels
+  SparseVoxels sparse;
   std::vector<std::uint32_t> voxel_of_point;  ///< for each point before downsampling
   Normals normals;
   std::vector<std::uint8_t> is_edge;

@@ -52,13 +52,15 @@ constexpr BoxTest kBox{{{0.8f, 0.6f, 0}, {-0.6f, 0.8f, 0}, {0, 0, 1}},
                        {-0.04f, -0.05f, -0.05f},
                        {0.04f, 0.05f, 0.05f}};
 
+constexpr PointSpan kWhole{0, kNumPoints};
+
 void keep_inside(const PointKernels& kernels, Block& b) {
-  benchmark::DoNotOptimize(
-      kernels.keep_inside(kBox, b.points(), {b.a.data(), b.f.data(), b.depth.data(), b.out.data()}));
+  benchmark::DoNotOptimize(kernels.keep_inside(kBox, b.points(), {&kWhole, 1},
+                                               {b.a.data(), b.f.data(), b.depth.data(), b.out.data()}));
 }
 
 void count_inside(const PointKernels& kernels, Block& b) {
-  benchmark::DoNotOptimize(kernels.count_inside(kBox, b.points()));
+  benchmark::DoNotOptimize(kernels.count_inside(kBox, b.points(), {&kWhole, 1}, kNumPoints));
 }
 
 void keep_near(const PointKernels& kernels, Block& b) {

@@ -37,12 +37,12 @@ CheckScene::CheckScene(const AnalyticScene& scene)
             query_,
             object_of_point_,
             surfaces_.normals,
-            &surfaces_.voxel_of_point,
+            surfaces_.voxel_of_point,
             surfaces_.support,
             depth_map_,
             object_of_point_,
-            DownsampleConfig{}.leaf_size_m * DownsampleConfig{}.leaf_size_m,
-            4} {}
+            4,
+            12} {}
 
 Candidate CheckScene::candidate(const Eigen::Vector3f& position, const Eigen::Vector3f& approach,
                                 const Eigen::Vector3f& closing) const {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -44,6 +45,11 @@ struct Points {
     std::iota(index.begin(), index.end(), 1000u);
   }
   [[nodiscard]] PointRange range() const { return {x.data(), y.data(), z.data(), index.data(), size}; }
+  /// In three parts of which the middle one is empty.
+  [[nodiscard]] std::vector<PointSpan> spans() const {
+    const auto end = static_cast<std::uint32_t>(size), cut = end / 3;
+    return {{0, cut}, {cut, cut}, {cut, end}};
+  }
 };
 
 BoxTest tilted_box() {
@@ -69,7 +75,7 @@ Kept keep_inside(const PointKernels& kernels, const BoxTest& box, const Points& 
   const std::size_t room = points.size + kPointPadding;
   Kept kept{std::vector<float>(room), std::vector<float>(room), std::vector<float>(room),
             std::vector<std::uint32_t>(room + 1, kUntouched)};
-  const std::size_t n = kernels.keep_inside(box, points.range(),
+  const std::size_t n = kernels.keep_inside(box, points.range(), points.spans(),
                                             {kept.a.data(), kept.f.data(), kept.z.data(), kept.index.data()});
   EXPECT_EQ(kept.index.back(), kUntouched) << "writes beyond the room that is asked for";
   for (std::vector<float>* v : {&kept.a, &kept.f, &kept.z}) v->resize(n);
@@ -99,7 +105,104 @@ TEST(PointKernels, KeepWhatIsInTheBox) {
     EXPECT_EQ(k, expected.index.size());
     for (const Form& form : forms()) {
       EXPECT_EQ(keep_inside(*form.kernels, box, points), expected) << form.name << " " << size;
-      EXPECT_EQ(form.kernels->count_inside(box, points.range()), k) << form.name << " " << size;
+      EXPECT_EQ(form.kernels->count_inside(box, points.range(), points.spans(), size), k)
+          << form.name << " " << size;
+    }
+  }
+}
+
+TEST(PointKernels, OnlyTheSpansCountAndOnlyUntilThereAreEnough) {
+  const BoxTest box = tilted_box();
+  const Points points(200, 9);
+  const std::vector<PointSpan> spans{{3, 20}, {50, 59}, {100, 200}};
+  std::vector<std::uint32_t> expected;
+  const Kept all = keep_inside(portable_kernels(), box, points);
+  for (const std::uint32_t index : all.index)
+    for (const PointSpan& span : spans)
+      if (index - 1000 >= span.begin && index - 1000 < span.end) expected.push_back(index);
+  ASSERT_GT(expected.size(), 5u);
+  for (const Form& form : forms()) {
+    Kept kept{std::vector<float>(209), std::vector<float>(209), std::vector<float>(209),
+              std::vector<std::uint32_t>(209)};
+    kept.index.resize(form.kernels->keep_inside(
+        box, points.range(), spans, {kept.a.data(), kept.f.data(), kept.z.data(), kept.index.data()}));
+    EXPECT_EQ(kept.index, expected) << form.name;
+    EXPECT_EQ(form.kernels->count_inside(box, points.range(), spans, 200), expected.size()) << form.name;
+    const std::size_t some = form.kernels->count_inside(box, points.range(), spans, 0);
+    EXPECT_GT(some, 0u) << form.name;
+    EXPECT_LT(some, expected.size()) << form.name;
+  }
+}
+
+TEST(PointKernels, MeetRowsWhereAllPairsOfPlanesLeaveSomething) {
+  std::mt19937 random(10);
+  std::uniform_real_distribution<float> unit(-1, 1);
+  constexpr float kCell = 0.02f;
+  for (const std::size_t size : {0, 1, 8, 30}) {
+    std::vector<std::int32_t> y(size + kPointPadding), x(y), num_cells(y);
+    for (std::size_t i = 0; i < size; ++i) {
+      y[i] = static_cast<std::int32_t>(i) - 15;
+      x[i] = static_cast<std::int32_t>(20 * unit(random));
+      num_cells[i] = 1 + static_cast<std::int32_t>(i % 11);
+    }
+    RowLimits limits{};
+    limits.cell_m = kCell;
+    for (int k = 0; k < 4; ++k) {
+      limits.slope[k] = unit(random);
+      limits.least[k] = -0.2f + 0.1f * unit(random);
+      limits.most[k] = 0.2f + 0.1f * unit(random);
+    }
+    for (const Form& form : forms()) {
+      std::vector<std::int32_t> from(size + kPointPadding + 1, -7), to(from);
+      form.kernels->meet_rows(limits, {y.data(), x.data(), num_cells.data(), size}, from.data(), to.data());
+      EXPECT_EQ(from.back(), -7) << "writes beyond the room that is asked for";
+      for (std::size_t i = 0; i < size; ++i) {
+        const float middle = (static_cast<float>(y[i]) + 0.5f) * kCell;
+        for (std::int32_t c = 0; c < num_cells[i]; ++c) {
+          const float low = static_cast<float>(x[i] + c) * kCell;
+          bool meets = true;
+          float least = -1e9f, most = 1e9f;
+          for (int k = 0; k < 4; ++k) {
+            least = std::max(least, limits.least[k] - limits.slope[k] * middle);
+            most = std::min(most, limits.most[k] - limits.slope[k] * middle);
+          }
+          meets = least <= most && low + kCell > least && low <= most;
+          if (std::abs(low + kCell - least) < 1e-5f || std::abs(low - most) < 1e-5f) continue;
+          EXPECT_EQ(c >= from[i] && c < to[i], meets) << form.name << " row " << i << " cell " << c;
+        }
+      }
+    }
+  }
+}
+
+TEST(PointKernels, SumOverPointsWeighedByACircle) {
+  const Points points(60, 11);
+  for (const std::size_t num : {0, 1, 3, 8, 12, 40, 60}) {
+    for (const CircleWeights& weights : {CircleWeights{0, 0, 0, 0}, CircleWeights{0.1f, -0.2f, 0.5f, 4}}) {
+      double n = 0, xy = 0, qy = 0;
+      for (std::size_t k = 0; k < num; ++k) {
+        const double x = double{points.x[k]}, y = double{points.y[k]};
+        const double e = (std::hypot(x - double{weights.x}, y - double{weights.y}) - double{weights.radius}) *
+                         double{weights.per_scale};
+        const double w = 1 / (1 + e * e);
+        n += w;
+        xy += w * x * y;
+        qy += w * (x * x + y * y) * y;
+      }
+      const auto sums = [&](const PointKernels& kernels) {
+        return kernels.sum_circle(weights, points.x.data(), points.y.data(), num);
+      };
+      const CircleSums expected = sums(portable_kernels());
+      EXPECT_NEAR(expected.n, n, 1e-4);
+      EXPECT_NEAR(expected.xy, xy, 1e-4);
+      EXPECT_NEAR(expected.qy, qy, 1e-4);
+      for (const Form& form : forms()) {
+        const CircleSums s = sums(*form.kernels);
+        const auto all = [](const CircleSums& c) {
+          return std::array{c.n, c.x, c.y, c.xx, c.xy, c.yy, c.q, c.qx, c.qy};
+        };
+        EXPECT_EQ(all(s), all(expected)) << form.name << " " << num;
+      }
     }
   }
 }
@@ -185,7 +288,7 @@ TEST(PointKernels, TagBandsAndKeepDepths) {
         EXPECT_EQ(own[k], object == kOwn ? 1 : 0);
         const auto bin = static_cast<std::int32_t>(std::floor((points.x[k] + 0.8f) / 0.01f));
         const bool has_none = object == kLeftOut || bin < 0 || bin >= 150;
-        EXPECT_EQ(marks[k], has_none ? 300 : 2 * bin + own[k]) << form.name << " " << points.x[k];
+        EXPECT_EQ(marks[k], has_none ? 384 : bin + 192 * own[k]) << form.name << " " << points.x[k];
         if (object == kOwn && points.x[k] >= -0.5f && points.x[k] <= 0.25f) expected.push_back(points.y[k]);
       }
       std::vector<float> depths(size + kPointPadding);

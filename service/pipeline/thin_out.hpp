@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Points of a cloud that stand for it, evenly spread.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "service/pipeline/point_cloud.hpp"
+
+namespace graspd {
+
+/// In each occupied cell of the spacing [m] the point nearest to the mean of those in it, in the order of the
+/// cells. All points must be finite.
+[[nodiscard]] std::vector<std::uint32_t> thin_out(const PointCloud& cloud, float spacing_m);
+
+}  // namespace graspd
