@@ -55,9 +55,17 @@ void run_organized(const BenchOptions& options, const ResultSink& sink) {
   for (const int width : {options.width, options.width / 2}) {
     const PointCloud cloud = simulated_image(options, 0, width).cloud;
     const BenchCloud bench{printed("%d x %d", cloud.width, cloud.height), cloud, 0};
+    BenchCloud blocks = bench;
+    blocks.name += ", blocks";
+    DetectConfig by_blocks;
+    by_blocks.downsample.image_blocks = true;
+    BenchOptions alone = options;
+    alone.no_pcl = true;  // it has had its turns on the same image
     for (const int threads : outer_thread_counts(options, all_threads())) {
       if (stop_requested()) return;
       sink(measure_in_turns("organized", bench, DetectConfig{}, threads, options));
+      if (stop_requested()) return;
+      sink(measure_in_turns("organized", blocks, by_blocks, threads, alone));
     }
   }
 }

@@ -44,7 +44,7 @@ Detection detect_handles(const PointCloud& cloud, const Gripper& gripper, const 
   std::optional<PointIndex> index;
   Surfaces surfaces;
   tbb::parallel_invoke([&] { index.emplace(kept.cloud, kept.pixels); },
-                       [&] { surfaces = find_surfaces(kept.cloud, config, done); });
+                       [&] { surfaces = find_surfaces(kept.cloud, config, done, kept.pixels); });
   done("index");
   detection.points_used = static_cast<int>(surfaces.cloud.size());
   FoundHandles found = find_handles(kept.cloud, *index, surfaces, gripper, config);

@@ -5,11 +5,14 @@
 #include <tbb/parallel_for.h>
 
 #include "service/pipeline/cell_order.hpp"
+#include "service/pipeline/image_blocks.hpp"
 
 namespace graspd {
 
-Downsampled downsample(const PointCloud& cloud, const DownsampleConfig& config) {
-  const CellOrder order = order_by_cell(cloud, config.leaf_size_m);
+namespace {
+
+Downsampled thin_by_voxels(const PointCloud& cloud, float leaf_size_m) {
+  const CellOrder order = order_by_cell(cloud, leaf_size_m);
   Downsampled result;
   PointCloud& voxels = result.cloud;
   voxels.viewpoint = cloud.viewpoint;
@@ -32,6 +35,15 @@ Downsampled downsample(const PointCloud& cloud, const DownsampleConfig& config) 
     }
   });
   return result;
+}
+
+}  // namespace
+
+Downsampled downsample(const PointCloud& cloud, const DownsampleConfig& config, const ImagePixels& pixels) {
+  if (config.image_blocks)
+    if (const auto camera = fit_pinhole(cloud, pixels))
+      return thin_by_blocks(cloud, pixels, *camera, config.leaf_size_m);
+  return thin_by_voxels(cloud, config.leaf_size_m);
 }
 
 }  // namespace graspd

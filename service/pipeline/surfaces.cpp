@@ -85,9 +85,10 @@ void find_objects(const Neighborhoods& neighborhoods, const DetectConfig& config
 
 }  // namespace
 
-Surfaces find_surfaces(const PointCloud& cloud, const DetectConfig& config, const StageObserver& done) {
+Surfaces find_surfaces(const PointCloud& cloud, const DetectConfig& config, const StageObserver& done,
+                       const ImagePixels& pixels) {
   Surfaces s;
-  Downsampled voxels = downsample(cloud, config.downsample);
+  Downsampled voxels = downsample(cloud, config.downsample, pixels);
   s.cloud = std::move(voxels.cloud);
   s.voxel_of_point = std::move(voxels.voxel_of_point);
   done("downsample");

@@ -37,8 +37,9 @@ struct Surfaces {
   Objects wholes;  ///< the coarser guess: each is one object or several
 };
 
-/// All points must be finite, and there must be at least one.
+/// All points must be finite, and there must be at least one. pixels: of the cloud's points, where it is part
+/// of an image.
 [[nodiscard]] Surfaces find_surfaces(const PointCloud& cloud, const DetectConfig& config,
-                                     const StageObserver& done);
+                                     const StageObserver& done, const ImagePixels& pixels = {});
 
 }  // namespace graspd

@@ -160,6 +160,25 @@ TEST(DetectInvariance, NumberOfThreads) {
   }
 }
 
+TEST(DetectInvariance, NumberOfThreadsWithBlocksOfPixels) {
+  const AnalyticScene scene = in_optical_frame(three_objects());
+  const PointCloud cloud = with_range_noise(render(scene).cloud, 0.0007f, 1);
+  DetectConfig config;
+  config.downsample.image_blocks = true;
+  std::vector<Detection> detections;
+  for (const int threads : {1, 2, 4, 8}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(threads));
+    tbb::task_arena arena(threads);
+    arena.execute([&] { detections.push_back(detect_handles(cloud, {}, config)); });
+  }
+  for (const Detection& detection : detections) EXPECT_TRUE(same_bits(detections[0], detection));
+  std::map<int, int> handles_on_solid;
+  for (const Handle& handle : detections[0].handles) ++handles_on_solid[judge(handle, {}, {}, scene).solid];
+  EXPECT_FALSE(same_bits(detections[0], detect(cloud))) << "voxels are others";
+  for (const int solid : {1, 2, 3}) EXPECT_GT(handles_on_solid[solid], 0) << solid;
+}
+
 TEST(DetectInvariance, CalledTwiceAndAfterAnotherCloud) {
   const PointCloud cloud = render(three_objects()).cloud;
   const Detection first = detect(cloud);
