@@ -10,7 +10,7 @@
 #include "client/bench/suites.hpp"
 #include "client/common/program.hpp"
 #include "client/simulate/scene_builder.hpp"
-#include "service/runtime/freed_memory.hpp"
+#include "service/runtime/kept_memory.hpp"
 
 namespace graspd {
 namespace {
@@ -93,7 +93,7 @@ int run(const CLI::App& app, const BenchOptions& options) {
 }  // namespace graspd
 
 int main(int argc, char** argv) {
-  graspd::keep_freed_memory();  // as the daemon does
+  graspd::keep_memory();  // as the daemon does
   CLI::App app("Times graspd, from clouds, messages or the bus to handles, and PCL on the same clouds.",
                "graspd-bench");
   graspd::BenchOptions options;

@@ -5,6 +5,9 @@
 #include <malloc.h>
 
 #include <fstream>
+#include <memory_resource>
+
+#include "service/runtime/kept_memory.hpp"
 
 namespace graspd {
 namespace {
@@ -14,6 +17,19 @@ bool reset_peak() {
   file << "5" << std::flush;
   return static_cast<bool>(file);
 }
+
+/// Where std::pmr's containers have their memory from for as long as this lives.
+class FreshMemory {
+ public:
+  FreshMemory() : usual_(std::pmr::set_default_resource(&memory_)) {}
+  ~FreshMemory() { std::pmr::set_default_resource(usual_); }
+  FreshMemory(const FreshMemory&) = delete;
+  FreshMemory& operator=(const FreshMemory&) = delete;
+
+ private:
+  KeptMemory memory_;
+  std::pmr::memory_resource* const usual_;
+};
 
 }  // namespace
 
@@ -30,7 +46,10 @@ std::optional<std::int64_t> peak_growth_bytes(const std::function<void()>& body)
   malloc_trim(0);
   if (!reset_peak()) return std::nullopt;
   const auto before = status_bytes("self", "VmRSS:");
-  body();
+  {
+    const FreshMemory nothing_kept;
+    body();
+  }
   const auto peak = status_bytes("self", "VmHWM:");
   if (!before || !peak) return std::nullopt;
   return *peak - *before;

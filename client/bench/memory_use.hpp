@@ -10,7 +10,8 @@
 namespace graspd {
 
 /// By how much the resident memory of this process rises above where it was while the body runs [bytes], with
-/// free memory given back to the kernel before. Nothing where the kernel does not tell.
+/// free memory given back to the kernel before and nothing kept for it by std::pmr's default resource. The
+/// body leaves no container of std::pmr behind. Nothing where the kernel does not tell.
 [[nodiscard]] std::optional<std::int64_t> peak_growth_bytes(const std::function<void()>& body);
 
 /// A value of /proc/PROCESS/status [bytes]; process: a number, or "self". key: with its colon. Nothing where

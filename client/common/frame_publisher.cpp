@@ -42,8 +42,8 @@ void FramePublisher::send_cloud(const FrameHeader& header, const LabelledCloud& 
   send(encode(make_point_cloud(header, cloud.cloud, cloud.rgb, cloud.label)));
 }
 
-void FramePublisher::send_depth(const FrameHeader& header, const Pinhole& camera,
-                                const std::vector<float>& z_m, double depth_scale_m) {
+void FramePublisher::send_depth(const FrameHeader& header, const Pinhole& camera, std::span<const float> z_m,
+                                double depth_scale_m) {
   const DepthCamera intrinsics{camera.width, camera.height, camera.fx,    camera.fy,
                                camera.cx,    camera.cy,     depth_scale_m};
   send(encode(make_depth_image(header, intrinsics, depth_units(z_m, depth_scale_m))));

@@ -58,7 +58,7 @@ class FramePublisher {
   void send_cloud(const FrameHeader& header, const LabelledCloud& cloud);
 
   /// As depth_image_t.
-  void send_depth(const FrameHeader& header, const Pinhole& camera, const std::vector<float>& z_m,
+  void send_depth(const FrameHeader& header, const Pinhole& camera, std::span<const float> z_m,
                   double depth_scale_m);
 
   [[nodiscard]] std::int64_t frames() const { return frames_; }

@@ -80,7 +80,7 @@ std::variant<Pinhole, std::string> estimate_pinhole(const PointCloud& cloud) {
                  along_v.slope(), along_u.offset(), along_v.offset()};
 }
 
-std::vector<std::uint16_t> depth_units(const std::vector<float>& z_m, double depth_scale_m) {
+std::vector<std::uint16_t> depth_units(std::span<const float> z_m, double depth_scale_m) {
   std::vector<std::uint16_t> units(z_m.size(), 0);
   for (std::size_t i = 0; i < z_m.size(); ++i) {
     const double value = std::round(static_cast<double>(z_m[i]) / depth_scale_m);

@@ -3,6 +3,7 @@
 // The pinhole camera behind an organized cloud, for sending clouds from files as depth images.
 #pragma once
 #include <cstdint>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -23,6 +24,6 @@ struct Pinhole {
 [[nodiscard]] std::variant<Pinhole, std::string> estimate_pinhole(const PointCloud& cloud);
 
 /// Along z in units of depth_scale_m, rounded; 0 where there is no point or the unit cannot express it.
-[[nodiscard]] std::vector<std::uint16_t> depth_units(const std::vector<float>& z_m, double depth_scale_m);
+[[nodiscard]] std::vector<std::uint16_t> depth_units(std::span<const float> z_m, double depth_scale_m);
 
 }  // namespace graspd

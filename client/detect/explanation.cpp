@@ -49,7 +49,7 @@ std::string with_texts(const std::string& table, const std::vector<std::string>&
   return result;
 }
 
-FailureCounts segments_by_reason(const std::vector<SegmentReport>& segments) {
+FailureCounts segments_by_reason(const std::pmr::vector<SegmentReport>& segments) {
   FailureCounts counts{};
   for (const SegmentReport& segment : segments)
     if (segment.num_handles == 0) ++counts[static_cast<std::size_t>(segment.reason())];

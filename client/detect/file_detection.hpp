@@ -3,6 +3,7 @@
 // A cloud from a file -> the handle list that the daemon would answer it with.
 #pragma once
 #include <cstdint>
+#include <memory_resource>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,7 @@ namespace graspd {
 
 struct FileDetection {
   handle_list_t list;
-  std::vector<SegmentReport> segments;  ///< what became of each; centroids in the frame of the handles
+  std::pmr::vector<SegmentReport> segments;  ///< what became of each; centroids in the frame of the handles
 };
 
 /// Handles, statuses and counts are those of the daemon with the same settings, to the bit; the calling

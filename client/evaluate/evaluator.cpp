@@ -13,12 +13,12 @@
 namespace graspd {
 namespace {
 
-std::vector<Handle> detected(const DetectionRun& run, const PointCloud& cloud) {
+std::pmr::vector<Handle> detected(const DetectionRun& run, const PointCloud& cloud) {
   return detect_handles(changed(cloud, run.change), run.gripper, run.detect).handles;
 }
 
 std::vector<Verdict> judge_all(const LabelScene& scene, const Gripper& gripper,
-                               const std::vector<Handle>& handles) {
+                               const std::pmr::vector<Handle>& handles) {
   std::vector<Verdict> verdicts(handles.size());
   tbb::parallel_for(std::size_t{0}, handles.size(),
                     [&](std::size_t i) { verdicts[i] = judge(scene, gripper, handles[i]); });
@@ -32,12 +32,12 @@ Evaluator::Evaluator(std::vector<EvaluatedRun> runs, EvaluatorConfig config)
   for (const EvaluatedRun& run : settings_) judged_.push_back({run.name, {}});
 }
 
-std::vector<Handle> Evaluator::in_cloud_frame(std::vector<Handle> handles) const {
+std::pmr::vector<Handle> Evaluator::in_cloud_frame(std::pmr::vector<Handle> handles) const {
   for (Handle& handle : handles) handle = transformed(handle, config_.T_cloud_handles);
   return handles;
 }
 
-std::vector<Handle> Evaluator::handles_of(const EvaluatedRun& run, const LabelledFrame& frame) {
+std::pmr::vector<Handle> Evaluator::handles_of(const EvaluatedRun& run, const LabelledFrame& frame) {
   if (const auto* detection = std::get_if<DetectionRun>(&run.handles))
     return detected(*detection, frame.cloud.cloud);
   if (const auto* either = std::get_if<LoggedOrDetected>(&run.handles)) {
@@ -47,7 +47,7 @@ std::vector<Handle> Evaluator::handles_of(const EvaluatedRun& run, const Labelle
   const auto& file = std::get<HandleFile>(run.handles);
   const auto* handles = frame.seq ? file.find(*frame.seq) : file.find(frame.name);
   if (handles == nullptr) ++frames_without_handles_;
-  return handles == nullptr ? std::vector<Handle>() : in_cloud_frame(*handles);
+  return handles == nullptr ? std::pmr::vector<Handle>() : in_cloud_frame(*handles);
 }
 
 std::vector<int> Evaluator::counted_objects(const LabelScene& scene, const std::string& frame) {
@@ -74,8 +74,8 @@ std::string Evaluator::category_of(const std::string& frame) const {
 }
 
 void Evaluator::measure_steadiness(const LabelScene& scene, const Gripper& gripper,
-                                   const std::vector<Handle>& handles, const std::vector<Verdict>& verdicts,
-                                   Steadiness& steadiness) const {
+                                   const std::pmr::vector<Handle>& handles,
+                                   const std::vector<Verdict>& verdicts, Steadiness& steadiness) const {
   std::vector<int> valid(handles.size());
   tbb::parallel_for(std::size_t{0}, handles.size(), [&](std::size_t i) {
     if (verdicts[i].valid()) valid[i] = valid_disturbances(scene, gripper, handles[i], Steadiness::kWanted);
@@ -93,7 +93,7 @@ void Evaluator::add(const LabelledFrame& frame) {
   const std::vector<int> objects = counted_objects(scene, frame.name);
   for (std::size_t r = 0; r < settings_.size(); ++r) {
     const Gripper& gripper = settings_[r].gripper;
-    const std::vector<Handle> handles = handles_of(settings_[r], frame);
+    const std::pmr::vector<Handle> handles = handles_of(settings_[r], frame);
     const std::vector<Verdict> verdicts = judge_all(scene, gripper, handles);
     JudgedFrame& judged = judged_[r].frames.emplace_back();
     judged.name = frame.name;

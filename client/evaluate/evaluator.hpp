@@ -3,6 +3,7 @@
 // Judges the handles of several runs frame by frame.
 #pragma once
 #include <map>
+#include <memory_resource>
 #include <optional>
 #include <set>
 #include <string>
@@ -68,12 +69,13 @@ class Evaluator {
   [[nodiscard]] int frames_without_handles() const { return frames_without_handles_; }
 
  private:
-  [[nodiscard]] std::vector<Handle> handles_of(const EvaluatedRun& run, const LabelledFrame& frame);
+  [[nodiscard]] std::pmr::vector<Handle> handles_of(const EvaluatedRun& run, const LabelledFrame& frame);
   [[nodiscard]] std::vector<int> counted_objects(const LabelScene& scene, const std::string& frame);
   [[nodiscard]] std::string category_of(const std::string& frame) const;
-  [[nodiscard]] std::vector<Handle> in_cloud_frame(std::vector<Handle> handles) const;
-  void measure_steadiness(const LabelScene& scene, const Gripper& gripper, const std::vector<Handle>& handles,
-                          const std::vector<Verdict>& verdicts, Steadiness& steadiness) const;
+  [[nodiscard]] std::pmr::vector<Handle> in_cloud_frame(std::pmr::vector<Handle> handles) const;
+  void measure_steadiness(const LabelScene& scene, const Gripper& gripper,
+                          const std::pmr::vector<Handle>& handles, const std::vector<Verdict>& verdicts,
+                          Steadiness& steadiness) const;
 
   std::vector<EvaluatedRun> settings_;
   EvaluatorConfig config_;

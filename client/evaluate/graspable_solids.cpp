@@ -50,7 +50,7 @@ class Search {
         T_solid_world_(solid_.T_world_solid.inverse()),
         eye_(eye) {}
 
-  std::vector<Handle> run() {
+  std::pmr::vector<Handle> run() {
     const std::size_t n = object_.spots.size();
     const std::size_t stride = n / static_cast<std::size_t>(config_.max_spots) + 1;
     // Far spots first: scattered ones find a place that holds sooner than neighbours.
@@ -145,7 +145,7 @@ class Search {
   const Solid& solid_;
   Isometry3d T_solid_world_;
   Vector3d eye_;
-  std::vector<Handle> poses_;
+  std::pmr::vector<Handle> poses_;
 };
 
 }  // namespace

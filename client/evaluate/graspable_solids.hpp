@@ -5,6 +5,7 @@
 #pragma once
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <memory_resource>
 #include <vector>
 
 #include "client/evaluate/solid_judge.hpp"
@@ -27,8 +28,9 @@ struct GraspSearchConfig {
 struct GraspableSolid {
   std::size_t solid = kNoSolid;  ///< index into the scene
   std::uint32_t label = 0;
-  int pixels = 0;             ///< that the camera sees of it
-  std::vector<Handle> poses;  ///< robust ones, in the world frame; min_poses where it can be held, else fewer
+  int pixels = 0;  ///< that the camera sees of it
+  std::pmr::vector<Handle>
+      poses;  ///< robust ones, in the world frame; min_poses where it can be held, else fewer
   bool graspable = false;
 };
 

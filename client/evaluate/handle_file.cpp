@@ -68,7 +68,8 @@ Handle handle_of(const CsvFile& file, std::size_t row) {
 }
 
 template <class Key>
-const std::vector<Handle>* found(const std::map<Key, std::vector<Handle>>& handles, const Key& key) {
+const std::pmr::vector<Handle>* found(const std::map<Key, std::pmr::vector<Handle>>& handles,
+                                      const Key& key) {
   const auto at = handles.find(key);
   return at == handles.end() ? nullptr : &at->second;
 }
@@ -123,11 +124,11 @@ std::int64_t CsvFile::integer(std::size_t row, const std::string& column) const 
   return value;
 }
 
-const std::vector<Handle>* HandleFile::find(const std::string& frame) const {
+const std::pmr::vector<Handle>* HandleFile::find(const std::string& frame) const {
   return found(by_frame, frame);
 }
 
-const std::vector<Handle>* HandleFile::find(std::int64_t seq) const {
+const std::pmr::vector<Handle>* HandleFile::find(std::int64_t seq) const {
   return found(by_seq, seq);
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory_resource>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -45,10 +46,10 @@ class CsvFile {
 
 /// Handles of each frame in the order of the file, best first.
 struct HandleFile {
-  std::map<std::string, std::vector<Handle>> by_frame;  ///< by the column `frame`
-  std::map<std::int64_t, std::vector<Handle>> by_seq;   ///< by the column `seq`, where there is one
-  [[nodiscard]] const std::vector<Handle>* find(const std::string& frame) const;
-  [[nodiscard]] const std::vector<Handle>* find(std::int64_t seq) const;
+  std::map<std::string, std::pmr::vector<Handle>> by_frame;  ///< by the column `frame`
+  std::map<std::int64_t, std::pmr::vector<Handle>> by_seq;   ///< by the column `seq`, where there is one
+  [[nodiscard]] const std::pmr::vector<Handle>* find(const std::string& frame) const;
+  [[nodiscard]] const std::pmr::vector<Handle>* find(std::int64_t seq) const;
 };
 
 /// Needs frame, px, py, pz, qw, qx, qy, qz, width; takes score and seq along. Rows with id -1 stand for

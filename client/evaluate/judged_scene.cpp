@@ -38,8 +38,8 @@ TrueFrame true_frame(const SimulationConfig& config, std::int64_t seq) {
   return truth;
 }
 
-JudgedScene judge_scene(const TrueFrame& truth, const std::vector<Handle>& handles, const SolidJudge& judge,
-                        const std::string& category) {
+JudgedScene judge_scene(const TrueFrame& truth, const std::pmr::vector<Handle>& handles,
+                        const SolidJudge& judge, const std::string& category) {
   const Scene& scene = judge.probe().scene();
   JudgedScene judged;
   judged.frame.name = std::to_string(truth.seq);

@@ -3,6 +3,7 @@
 // Handles of a simulated frame against the solids it shows.
 #pragma once
 #include <cstdint>
+#include <memory_resource>
 #include <string>
 #include <vector>
 
@@ -50,7 +51,7 @@ struct JudgedScene {
 [[nodiscard]] std::size_t nearest_object(const Scene& scene, const Eigen::Vector3d& point_world);
 
 /// handles: in the camera's frame, best first. category: of the frame, for tables.
-[[nodiscard]] JudgedScene judge_scene(const TrueFrame& truth, const std::vector<Handle>& handles,
+[[nodiscard]] JudgedScene judge_scene(const TrueFrame& truth, const std::pmr::vector<Handle>& handles,
                                       const SolidJudge& judge, const std::string& category);
 
 /// Every handle that does not hold: frame, rank, score, pose in the world and why.

@@ -21,7 +21,7 @@ namespace {
 using Visit = std::function<bool(LabelledFrame&)>;
 using Problem = std::function<void(const std::string&)>;
 /// Channel and seq of the cloud that was answered.
-using Answers = std::map<std::pair<std::string, std::int64_t>, std::vector<Handle>>;
+using Answers = std::map<std::pair<std::string, std::int64_t>, std::pmr::vector<Handle>>;
 
 Handle handle_of(const handle_t& wire) {
   Handle handle;

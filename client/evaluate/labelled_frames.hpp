@@ -4,6 +4,7 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <memory_resource>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,7 +19,7 @@ struct LabelledFrame {
   std::optional<std::int64_t> seq;  ///< of frames in logs
   LabelledCloud cloud;
   /// What was answered to the frame, where its log has a handle list for it: in the list's frame.
-  std::optional<std::vector<Handle>> logged_handles;
+  std::optional<std::pmr::vector<Handle>> logged_handles;
 };
 
 /// Calls visit for each frame in the order of the arguments; it returns false to stop. What cannot be used is

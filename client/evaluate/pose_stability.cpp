@@ -12,7 +12,7 @@ namespace graspd {
 namespace {
 
 /// The first handle of each object, by the object's index in the scene.
-std::map<std::size_t, Handle> best_handles(const TrueFrame& truth, const std::vector<Handle>& handles) {
+std::map<std::size_t, Handle> best_handles(const TrueFrame& truth, const std::pmr::vector<Handle>& handles) {
   std::map<std::size_t, Handle> best;
   for (const Handle& handle : handles) {
     const Handle in_world = transformed(handle, truth.T_world_camera.cast<float>());
@@ -55,7 +55,7 @@ std::vector<ObjectStability> pose_stability(SimulationConfig simulation, std::in
   std::map<std::size_t, std::size_t> row;
   for (std::int64_t k = 0; k < frames; ++k) {
     const TrueFrame truth = true_frame(simulation, k);
-    const auto best = best_handles(truth, handles(truth).value_or(std::vector<Handle>()));
+    const auto best = best_handles(truth, handles(truth).value_or(std::pmr::vector<Handle>()));
     if (k == 0) {
       first = best;
       for (const auto& [solid, handle] : first) {

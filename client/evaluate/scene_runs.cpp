@@ -19,10 +19,10 @@ HandlesOfFrame detected(const DetectionRun& run) {
 }
 
 HandlesOfFrame looked_up(const HandleFile& file, const Eigen::Isometry3f& T_cloud_handles) {
-  return [&file, T_cloud_handles](const TrueFrame& truth) -> std::optional<std::vector<Handle>> {
+  return [&file, T_cloud_handles](const TrueFrame& truth) -> std::optional<std::pmr::vector<Handle>> {
     const auto* listed = file.find(truth.seq);
     if (listed == nullptr) return std::nullopt;
-    std::vector<Handle> handles = *listed;
+    std::pmr::vector<Handle> handles = *listed;
     for (Handle& handle : handles) handle = transformed(handle, T_cloud_handles);
     return handles;
   };
@@ -46,7 +46,7 @@ std::vector<JudgedScene> judge_scenes(const SimulationConfig& simulation, const 
     const TrueFrame truth = true_frame(simulation, range.first + static_cast<std::int64_t>(i));
     const SolidJudge judge(truth.scene, gripper);
     const auto found = handles(truth);
-    scenes[i] = judge_scene(truth, found.value_or(std::vector<Handle>()), judge, category);
+    scenes[i] = judge_scene(truth, found.value_or(std::pmr::vector<Handle>()), judge, category);
     scenes[i].has_list = found.has_value();
     const std::lock_guard lock(mutex);
     if (progress) progress(++done);

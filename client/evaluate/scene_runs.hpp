@@ -4,6 +4,7 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <memory_resource>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,7 +15,7 @@
 namespace graspd {
 
 /// Handles of a frame in the camera's frame, best first; nothing where a file of handles does not name it.
-using HandlesOfFrame = std::function<std::optional<std::vector<Handle>>(const TrueFrame&)>;
+using HandlesOfFrame = std::function<std::optional<std::pmr::vector<Handle>>(const TrueFrame&)>;
 
 /// Detected with the run's settings, or looked up in its file by the frame's number. T_cloud_handles takes
 /// handles of files back into the camera's frame. The run must outlive it.

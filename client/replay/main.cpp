@@ -8,7 +8,7 @@
 #include "client/common/program.hpp"
 #include "client/replay/commands.hpp"
 #include "client/replay/run_command.hpp"
-#include "service/runtime/freed_memory.hpp"
+#include "service/runtime/kept_memory.hpp"
 
 namespace {
 
@@ -21,7 +21,7 @@ const std::map<std::string_view, Command> kCommands{
 
 int main(int argc, char** argv) {
   using namespace graspd;
-  keep_freed_memory();
+  keep_memory();
   if (argc > 1)
     if (const auto command = kCommands.find(argv[1]); command != kCommands.end())
       return command->second(argc - 1, argv + 1);

@@ -12,7 +12,7 @@
 #include "service/config/service_config.hpp"
 #include "service/daemon/service_loop.hpp"
 #include "service/daemon/version.hpp"
-#include "service/runtime/freed_memory.hpp"
+#include "service/runtime/kept_memory.hpp"
 
 namespace {
 
@@ -89,7 +89,7 @@ int main(int argc, char** argv) {
       std::cerr << name << ": ok, " << config.sources.size() << " source(s)\n";
       return 0;
     }
-    keep_freed_memory();
+    keep_memory();
     return serve(layers, config);
   } catch (const ConfigError& e) {
     std::cerr << e.what() << '\n';

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <functional>
 #include <list>
+#include <memory_resource>
 #include <mutex>
 
 #include "service/daemon/stream.hpp"
@@ -37,7 +38,7 @@ class WorkWatch {
 
    private:
     WorkWatch& watch_;
-    std::list<Work>::iterator at_;
+    std::pmr::list<Work>::iterator at_;
   };
 
   /// Gives up frames that are past their deadline, and those in work for longer than `longest` (zero: no
@@ -53,7 +54,7 @@ class WorkWatch {
 
  private:
   std::mutex mutex_;
-  std::list<Work> works_;
+  std::pmr::list<Work> works_;
   bool all_cancelled_ = false;
 };
 

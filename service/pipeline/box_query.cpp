@@ -123,7 +123,8 @@ BoxQuery::BoxQuery(const PointCloud& cloud, float cell_m) : cell_m_(cell_m) {
   }
   cell_starts_.push_back(order.starts[num_cells]);
   layers_.push_back({std::numeric_limits<int>::max(), row_y_.size()});
-  for (std::vector<std::int32_t>* v : {&row_y_, &row_x_, &row_cells_}) v->resize(v->size() + kPointPadding);
+  for (std::pmr::vector<std::int32_t>* v : {&row_y_, &row_x_, &row_cells_})
+    v->resize(v->size() + kPointPadding);
 }
 
 template <class Visit>

@@ -5,6 +5,7 @@
 #pragma once
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <memory_resource>
 #include <span>
 #include <vector>
 
@@ -33,8 +34,8 @@ class LocalPoints {
  private:
   void show(std::size_t n);
 
-  std::vector<float> a_, f_, z_;  // with room for what the kernels write beyond the points
-  std::vector<std::uint32_t> index_;
+  std::pmr::vector<float> a_, f_, z_;  // with room for what the kernels write beyond the points
+  std::pmr::vector<std::uint32_t> index_;
 };
 
 /// Points whose coordinates rotation^T (p - origin) lie in [min, max] are inside.
@@ -65,14 +66,14 @@ class BoxQuery {
   float cell_m_ = 1;
   /// Rows are cells with the same y and z that follow one another along x with small gaps; sorted by z, y and
   /// x. By row, and kPointPadding more:
-  std::vector<std::int32_t> row_y_, row_x_, row_cells_;  // x of the first cell, number of cells
-  std::vector<std::uint32_t> row_start_;                 // of its cells, in cell_starts_
+  std::pmr::vector<std::int32_t> row_y_, row_x_, row_cells_;  // x of the first cell, number of cells
+  std::pmr::vector<std::uint32_t> row_start_;                 // of its cells, in cell_starts_
   struct Layer {
     int z;
     std::size_t row;  ///< its first
   };
-  std::vector<Layer> layers_;  // those that have rows; one more at the end
-  std::vector<std::uint32_t>
+  std::pmr::vector<Layer> layers_;  // those that have rows; one more at the end
+  std::pmr::vector<std::uint32_t>
       cell_starts_;  // for each x of each row, and for the one after: position in points_
   PaddedPoints points_;
 };

@@ -39,7 +39,7 @@ template <class Key>
 RawVector<Entry<Key>> sorted_by_key(const RawVector<Key>& keys, int num_bits) {
   const Digits digits(num_bits);
   RawVector<Entry<Key>> entries(keys.size()), sorted(digits.num_places > 1 ? keys.size() : 0);
-  std::vector<std::uint32_t> next(digits.num_values());
+  std::pmr::vector<std::uint32_t> next(digits.num_values());
   const auto count = [&](int place) {
     std::fill(next.begin(), next.end(), 0u);
     for (const Key key : keys) ++next[digits.at(key, place)];
@@ -77,7 +77,7 @@ void set_cells(const RawVector<Entry<Key>>& entries, CellOrder& order) {
 }
 
 /// Number of cells on an axis, with one to spare at either end; min: the first.
-int cell_range(const std::vector<float>& v, float per_cell, int& min) {
+int cell_range(const std::pmr::vector<float>& v, float per_cell, int& min) {
   float low = v.front(), high = v.front();
   point_kernels().extend_bounds(v.data(), v.size(), low, high);
   min = cell_index(low, per_cell) - 1;

@@ -11,13 +11,13 @@ CoarseSurface::CoarseSurface(const PointCloud& cloud, float leaf_size_m)
       search_(cloud_, {2 * leaf_size_m}),
       is_missing_(cloud_.size(), 1) {}
 
-bool CoarseSurface::has(const std::vector<std::uint8_t>& wanted) const {
+bool CoarseSurface::has(const std::pmr::vector<std::uint8_t>& wanted) const {
   int missing = 0;
   for (std::size_t i = 0; i < size(); ++i) missing |= wanted[i] & is_missing_[i];
   return missing == 0;
 }
 
-void CoarseSurface::prepare(const std::vector<std::uint8_t>& wanted) {
+void CoarseSurface::prepare(const std::pmr::vector<std::uint8_t>& wanted) {
   if (has(wanted)) return;
   for (std::size_t i = 0; i < size(); ++i) is_missing_[i] = wanted[i] == 0 ? 1 : 0;
   neighborhoods_ = search_.find(is_missing_);

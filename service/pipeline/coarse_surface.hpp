@@ -3,6 +3,7 @@
 // The coarser copy of a cloud that its support is looked for in.
 #pragma once
 #include <cstdint>
+#include <memory_resource>
 #include <vector>
 
 #include "service/pipeline/neighborhoods.hpp"
@@ -24,9 +25,9 @@ class CoarseSurface {
   [[nodiscard]] std::size_t size() const { return cloud_.size(); }
 
   /// Whether those of all points with wanted[i] != 0 are there.
-  [[nodiscard]] bool has(const std::vector<std::uint8_t>& wanted) const;
+  [[nodiscard]] bool has(const std::pmr::vector<std::uint8_t>& wanted) const;
   /// Makes them, and of no others, unless they are there.
-  void prepare(const std::vector<std::uint8_t>& wanted);
+  void prepare(const std::pmr::vector<std::uint8_t>& wanted);
   /// Of the points prepared.
   [[nodiscard]] const Neighborhoods& neighborhoods() const { return neighborhoods_; }
   [[nodiscard]] const Normals& normals() const { return normals_; }
@@ -34,7 +35,7 @@ class CoarseSurface {
  private:
   PointCloud cloud_;
   NeighborhoodSearch search_;
-  std::vector<std::uint8_t> is_missing_;
+  std::pmr::vector<std::uint8_t> is_missing_;
   Neighborhoods neighborhoods_;
   Normals normals_;
 };

@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <memory_resource>
 #include <numbers>
 #include <vector>
 
@@ -33,9 +34,9 @@ struct FacePoint {
 /// z = c0 + c1 in + c2 in^2 (+ c3 a) by iteratively reweighted least squares (Cauchy weights, scale 2 mm). A
 /// face may be tilted along the major axis, too, by more than what its profile is asked for. Lengths are
 /// scaled to keep the normal equations well conditioned.
-Eigen::Vector3f fit_profile(const std::vector<FacePoint>& face, float span) {
+Eigen::Vector3f fit_profile(const std::pmr::vector<FacePoint>& face, float span) {
   Eigen::Vector4f c = Eigen::Vector4f::Zero();
-  std::vector<float> weight(face.size(), 1.0f);
+  std::pmr::vector<float> weight(face.size(), 1.0f);
   for (int round = 0; round < 5; ++round) {
     Eigen::Matrix4f A = Eigen::Matrix4f::Identity() * 1e-6f;
     Eigen::Vector4f b = Eigen::Vector4f::Zero();
@@ -58,7 +59,7 @@ Eigen::Vector3f fit_profile(const std::vector<FacePoint>& face, float span) {
 struct EndPoints {
   int near = 0, facing = 0;
   Eigen::Vector3f facing_sum = Eigen::Vector3f::Zero();  // of the normals
-  std::vector<FacePoint> face;
+  std::pmr::vector<FacePoint> face;
 };
 
 EndPoints collect_end(const ContactInput& in, float side, float end_m, float min_upright) {
@@ -82,7 +83,7 @@ EndPoints collect_end(const ContactInput& in, float side, float end_m, float min
   return out;
 }
 
-bool too_small(const ContactInput& in, const std::vector<FacePoint>& face) {
+bool too_small(const ContactInput& in, const std::pmr::vector<FacePoint>& face) {
   return face.size() < 8 || static_cast<float>(face.size()) * in.area_per_point_m2 < kMinFaceArea;
 }
 
@@ -127,7 +128,7 @@ bool slips_off(const ContactInput& in) {
 
 /// A face whose wall is out of sight: which way it goes on decides.
 Contact edge_contact(const ContactInput& in, float side, float end_m, float hidden_share,
-                     const std::vector<FacePoint>& face) {
+                     const std::pmr::vector<FacePoint>& face) {
   float span = 1e-3f;
   for (const FacePoint& f : face) span = std::max(span, f.in);
   const Eigen::Vector3f c = fit_profile(face, span);

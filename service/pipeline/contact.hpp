@@ -23,8 +23,9 @@ enum class ContactKind : std::uint8_t {
 /// Where the candidate is in the scene, and which of the local points are the object's between the jaws.
 struct ContactInput {
   const SceneView& scene;
-  const LocalPoints& local;                   ///< coordinates relative to position
-  const std::vector<std::uint32_t>& between;  ///< positions in local of the object's points between the jaws
+  const LocalPoints& local;  ///< coordinates relative to position
+  const std::pmr::vector<std::uint32_t>&
+      between;  ///< positions in local of the object's points between the jaws
   Eigen::Vector3f position;
   Eigen::Matrix3f rotation;
   float top_m;     ///< smallest depth of those points

@@ -20,8 +20,8 @@ struct Wall {
 };
 
 /// Points above the support.
-std::vector<std::uint32_t> standing_points(const PointCloud& cloud, const Support& support) {
-  std::vector<std::uint32_t> points;
+std::pmr::vector<std::uint32_t> standing_points(const PointCloud& cloud, const Support& support) {
+  std::pmr::vector<std::uint32_t> points;
   for (std::uint32_t i = 0; i < cloud.size(); ++i)
     if (!support.is_support[i]) points.push_back(i);
   return points;
@@ -37,17 +37,17 @@ float flatness(const PointCloud& cloud, const Segment& segment) {
 }
 
 /// Length of the middle part of some numbers; reorders them.
-float trimmed_length(std::vector<float>& values) {
+float trimmed_length(std::pmr::vector<float>& values) {
   std::sort(values.begin(), values.end());
   const auto skip = static_cast<std::size_t>(kTrimmed * static_cast<float>(values.size()));
   return values.empty() ? 0.0f : values[values.size() - 1 - skip] - values[skip];
 }
 
 /// Whether the face is long and high enough, and has nearly all points on one side.
-bool is_wall(const PointCloud& cloud, const std::vector<std::uint32_t>& standing, const Support& support,
+bool is_wall(const PointCloud& cloud, const std::pmr::vector<std::uint32_t>& standing, const Support& support,
              const ContainerConfig& config, Wall& wall) {
   const Eigen::Vector3f along = support.plane.normal.cross(wall.face.normal);
-  std::vector<float> lengths, heights;
+  std::pmr::vector<float> lengths, heights;
   std::size_t front = 0, behind = 0;
   for (const std::uint32_t i : standing) {
     const Eigen::Vector3f p = cloud.point(i);
@@ -65,10 +65,10 @@ bool is_wall(const PointCloud& cloud, const std::vector<std::uint32_t>& standing
   return wall.top_m >= config.min_height_m;
 }
 
-std::vector<Wall> find_walls(const PointCloud& cloud, const Segments& segments,
-                             const std::vector<std::uint32_t>& standing, const Support& support,
-                             const ContainerConfig& config) {
-  std::vector<Wall> walls;
+std::pmr::vector<Wall> find_walls(const PointCloud& cloud, const Segments& segments,
+                                  const std::pmr::vector<std::uint32_t>& standing, const Support& support,
+                                  const ContainerConfig& config) {
+  std::pmr::vector<Wall> walls;
   for (const Segment& segment : segments.list) {
     const float lean = segment.normal.dot(support.plane.normal);
     if (std::abs(lean) > kMaxLean || flatness(cloud, segment) > kMaxScatter) continue;
@@ -89,19 +89,19 @@ bool make_container(const Wall& a, const Wall& b, float min_apart_m) {
 
 }  // namespace
 
-std::vector<std::uint8_t> find_container(const PointCloud& cloud, const Segments& segments,
-                                         const Support& support, const ContainerConfig& config) {
+std::pmr::vector<std::uint8_t> find_container(const PointCloud& cloud, const Segments& segments,
+                                              const Support& support, const ContainerConfig& config) {
   if (!config.enabled) return {};
-  const std::vector<std::uint32_t> standing = standing_points(cloud, support);
-  std::vector<Wall> walls = find_walls(cloud, segments, standing, support, config);
-  const std::vector<Wall> all = walls;
+  const std::pmr::vector<std::uint32_t> standing = standing_points(cloud, support);
+  std::pmr::vector<Wall> walls = find_walls(cloud, segments, standing, support, config);
+  const std::pmr::vector<Wall> all = walls;
   std::erase_if(walls, [&](const Wall& wall) {
     return std::none_of(all.begin(), all.end(), [&](const Wall& other) {
       return make_container(wall, other, 0.5f * config.min_length_m);
     });
   });
   if (walls.empty()) return {};
-  std::vector<std::uint8_t> belongs(cloud.size());
+  std::pmr::vector<std::uint8_t> belongs(cloud.size());
   for (const std::uint32_t i : standing) {
     const Eigen::Vector3f p = cloud.point(i);
     const float height = support.plane.height(p);

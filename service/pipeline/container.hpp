@@ -3,6 +3,7 @@
 // The walls of a bin or box that objects lie in: like the support they are no objects, but in the way.
 #pragma once
 #include <cstdint>
+#include <memory_resource>
 #include <vector>
 
 #include "service/pipeline/segments.hpp"
@@ -32,7 +33,8 @@ struct ContainerConfig {
 /// 1 for each point that belongs to a wall; empty where there is no container. Walls are upright faces as
 /// long and as high as configured that have what stands on the support on one side only; it takes two of
 /// them, across or facing each other, to make a container.
-[[nodiscard]] std::vector<std::uint8_t> find_container(const PointCloud& cloud, const Segments& segments,
-                                                       const Support& support, const ContainerConfig& config);
+[[nodiscard]] std::pmr::vector<std::uint8_t> find_container(const PointCloud& cloud, const Segments& segments,
+                                                            const Support& support,
+                                                            const ContainerConfig& config);
 
 }  // namespace graspd

@@ -4,6 +4,7 @@
 #pragma once
 #include <array>
 #include <functional>
+#include <memory_resource>
 #include <string_view>
 #include <vector>
 
@@ -23,12 +24,12 @@ enum class DetectionStatus { kOk, kEmptyCloud, kNoFinitePoints, kNothingInWorksp
 /// Handles, and how the method came to them.
 struct Detection {
   DetectionStatus status = DetectionStatus::kEmptyCloud;
-  std::vector<Handle> handles;                           ///< best first, in the cloud's frame
+  std::pmr::vector<Handle> handles;                      ///< best first, in the cloud's frame
   int points_in = 0;                                     ///< of the cloud
   int points_used = 0;                                   ///< after workspace filter and downsampling
   int num_candidates = 0;                                ///< gripper poses accepted or refused
   FailureCounts candidate_failures{};                    ///< by the first check a candidate failed
-  std::vector<SegmentReport> segments;                   ///< what became of each
+  std::pmr::vector<SegmentReport> segments;              ///< what became of each
   [[nodiscard]] FailureCounts segment_failures() const;  ///< segments without a handle, by their reason
 };
 

@@ -3,6 +3,7 @@
 // One point for each occupied voxel, or for each block of an image's pixels: the mean of the points in it.
 #pragma once
 #include <cstdint>
+#include <memory_resource>
 #include <vector>
 
 #include "service/pipeline/config_fields.hpp"
@@ -25,7 +26,7 @@ struct DownsampleConfig {
 
 struct Downsampled {
   PointCloud cloud;  ///< one point a voxel, unorganized; by rows of voxels or of the image
-  std::vector<std::uint32_t> voxel_of_point;  ///< for each input point the index of its voxel's point
+  std::pmr::vector<std::uint32_t> voxel_of_point;  ///< for each input point the index of its voxel's point
 };
 
 /// All points must be finite. pixels: of the cloud's points, where it is part of an image.

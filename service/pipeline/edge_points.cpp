@@ -16,10 +16,10 @@ std::optional<ConfigProblem> SmoothnessConfig::validate() const {
   return std::nullopt;
 }
 
-std::vector<std::uint8_t> find_edge_points(const Normals& normals, const Neighborhoods& neighborhoods,
-                                           const SmoothnessConfig& config) {
+std::pmr::vector<std::uint8_t> find_edge_points(const Normals& normals, const Neighborhoods& neighborhoods,
+                                                const SmoothnessConfig& config) {
   const float cos_high = std::cos(config.theta_high_deg * std::numbers::pi_v<float> / 180);
-  std::vector<std::uint8_t> is_edge(normals.size());
+  std::pmr::vector<std::uint8_t> is_edge(normals.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, normals.size(), 1024), [&](const auto& range) {
     for (std::size_t s = range.begin(); s != range.end(); ++s) {
       const float nx = normals.x[s], ny = normals.y[s], nz = normals.z[s];

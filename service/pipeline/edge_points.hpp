@@ -3,6 +3,7 @@
 // Edge points: where many normals of the neighbourhood point elsewhere (paper, Definition 1).
 #pragma once
 #include <cstdint>
+#include <memory_resource>
 #include <vector>
 
 #include "service/pipeline/neighborhoods.hpp"
@@ -32,8 +33,8 @@ struct SmoothnessConfig {
 };
 
 /// 1 for each edge point, else 0. Points without a normal are edge points.
-[[nodiscard]] std::vector<std::uint8_t> find_edge_points(const Normals& normals,
-                                                         const Neighborhoods& neighborhoods,
-                                                         const SmoothnessConfig& config);
+[[nodiscard]] std::pmr::vector<std::uint8_t> find_edge_points(const Normals& normals,
+                                                              const Neighborhoods& neighborhoods,
+                                                              const SmoothnessConfig& config);
 
 }  // namespace graspd

@@ -16,8 +16,8 @@
 namespace graspd {
 namespace {
 
-std::vector<SegmentReport> start_reports(const Surfaces& surfaces) {
-  std::vector<SegmentReport> reports;
+std::pmr::vector<SegmentReport> start_reports(const Surfaces& surfaces) {
+  std::pmr::vector<SegmentReport> reports;
   for (std::size_t s = 0; s < surfaces.segments.list.size(); ++s) {
     const Segment& segment = surfaces.segments.list[s];
     SegmentReport& report = reports.emplace_back();
@@ -31,12 +31,14 @@ std::vector<SegmentReport> start_reports(const Surfaces& surfaces) {
 }
 
 /// 1 for each whole of several objects of which one has no handle.
-std::vector<std::uint8_t> wholes_to_try(const Surfaces& surfaces, const std::vector<FoundHandle>& handles) {
-  const std::vector<std::int32_t>&object = surfaces.objects.of_segment, &whole = surfaces.wholes.of_segment;
-  std::vector<std::uint8_t> has_handle(static_cast<std::size_t>(surfaces.objects.num_objects));
+std::pmr::vector<std::uint8_t> wholes_to_try(const Surfaces& surfaces,
+                                             const std::pmr::vector<FoundHandle>& handles) {
+  const std::pmr::vector<std::int32_t>&object = surfaces.objects.of_segment,
+        &whole = surfaces.wholes.of_segment;
+  std::pmr::vector<std::uint8_t> has_handle(static_cast<std::size_t>(surfaces.objects.num_objects));
   for (const FoundHandle& found : handles) has_handle[static_cast<std::size_t>(found.ranked.object)] = 1;
-  std::vector<std::int32_t> first(static_cast<std::size_t>(surfaces.wholes.num_objects), -1);
-  std::vector<std::uint8_t> several(first.size()), lacking(first.size());
+  std::pmr::vector<std::int32_t> first(static_cast<std::size_t>(surfaces.wholes.num_objects), -1);
+  std::pmr::vector<std::uint8_t> several(first.size()), lacking(first.size());
   for (std::size_t s = 0; s < object.size(); ++s) {
     const auto w = static_cast<std::size_t>(whole[s]);
     if (first[w] < 0) first[w] = object[s];
@@ -63,21 +65,21 @@ class Settler {
  private:
   const Gripper& gripper_;
   const HandleCheckConfig& config_;
-  tbb::enumerable_thread_specific<CheckBuffers> buffers_;
+  tbb::enumerable_thread_specific<CheckBuffers, std::pmr::polymorphic_allocator<CheckBuffers>> buffers_;
 };
 
 /// Adds the best handle of a whole on each of its parts that has none, as that part's.
-void add_for_parts_without(const Surfaces& surfaces, std::vector<FoundHandle> of_wholes, Settler& settler,
-                           std::vector<FoundHandle>& handles) {
-  std::set<std::int32_t> served;
+void add_for_parts_without(const Surfaces& surfaces, std::pmr::vector<FoundHandle> of_wholes,
+                           Settler& settler, std::pmr::vector<FoundHandle>& handles) {
+  std::pmr::set<std::int32_t> served;
   for (const FoundHandle& found : handles) served.insert(found.ranked.object);
   for (FoundHandle& found : of_wholes)
     found.ranked.object = surfaces.objects.of_segment[static_cast<std::size_t>(found.ranked.handle.segment)];
   std::erase_if(of_wholes, [&](const FoundHandle& found) { return served.contains(found.ranked.object); });
-  std::vector<float> scores(of_wholes.size());
+  std::pmr::vector<float> scores(of_wholes.size());
   tbb::parallel_for(std::size_t{0}, scores.size(),
                     [&](std::size_t i) { scores[i] = settler.final_score(of_wholes[i]); });
-  std::map<std::int32_t, std::size_t> best;
+  std::pmr::map<std::int32_t, std::size_t> best;
   for (std::size_t i = 0; i < of_wholes.size(); ++i) {
     const auto [it, is_new] = best.try_emplace(of_wholes[i].ranked.object, i);
     if (!is_new && scores[i] > scores[it->second]) it->second = i;
@@ -93,21 +95,22 @@ FoundHandles find_handles(const PointCloud& cloud, const PointIndex& index, cons
   Settler settler(gripper, config.check);
   SearchResult result;
   result.segments = start_reports(surfaces);
-  const std::vector<std::uint8_t> all(static_cast<std::size_t>(surfaces.objects.num_objects), 1);
+  const std::pmr::vector<std::uint8_t> all(static_cast<std::size_t>(surfaces.objects.num_objects), 1);
   const GuessSearch search(scene, surfaces.objects, gripper, config);
   search.run(all, result);
   std::optional<GuessSearch> of_wholes;
-  const std::vector<std::uint8_t> wholes = wholes_to_try(surfaces, result.handles);
+  const std::pmr::vector<std::uint8_t> wholes = wholes_to_try(surfaces, result.handles);
   if (std::any_of(wholes.begin(), wholes.end(), [](std::uint8_t w) { return w != 0; })) {
-    std::vector<FoundHandle> found = std::exchange(result.handles, {});
+    std::pmr::vector<FoundHandle> found = std::exchange(result.handles, {});
     of_wholes.emplace(scene, surfaces.wholes, gripper, config).run(wholes, result);
     add_for_parts_without(surfaces, std::exchange(result.handles, {}), settler, found);
     result.handles = std::move(found);
   }
-  std::vector<RankedHandle> ranked;
+  std::pmr::vector<RankedHandle> ranked;
   ranked.reserve(result.handles.size());
   for (const FoundHandle& found : result.handles) ranked.push_back(found.ranked);
-  const auto settle = [&](const std::vector<std::size_t>& which, std::vector<RankedHandle>& handles) {
+  const auto settle = [&](const std::pmr::vector<std::size_t>& which,
+                          std::pmr::vector<RankedHandle>& handles) {
     tbb::parallel_for(std::size_t{0}, which.size(), [&](std::size_t k) {
       handles[which[k]].handle.score = settler.final_score(result.handles[which[k]]);
     });

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The second half of the method: from surfaces to handles.
 #pragma once
+#include <memory_resource>
 #include <vector>
 
 #include "service/pipeline/detect_config.hpp"
@@ -13,8 +14,8 @@
 namespace graspd {
 
 struct FoundHandles {
-  std::vector<Handle> handles;  ///< best first
-  std::vector<SegmentReport> segments;
+  std::pmr::vector<Handle> handles;  ///< best first
+  std::pmr::vector<SegmentReport> segments;
   int num_tried = 0;         ///< candidates
   FailureCounts failures{};  ///< of all candidates tried
 };

@@ -21,13 +21,13 @@ constexpr float kPointCell = 0.015f;  // of the grid for box queries [m]
 constexpr int kSparseTolerance = 2, kPointTolerance = 4;
 constexpr int kMinSparse = 6, kMinPoints = 12;  // of the object between the jaws
 
-using Results = std::vector<CheckResult>;
+using Results = std::pmr::vector<CheckResult>;
 
 /// outlines: a first look, which refuses at little cost what is much too wide; null: the thorough one.
 Results check_all(const SceneView& scene, const Gripper& gripper, const HandleCheckConfig& config,
-                  const std::vector<Candidate>& candidates, const ObjectOutlines* outlines) {
+                  const std::pmr::vector<Candidate>& candidates, const ObjectOutlines* outlines) {
   Results results(candidates.size());
-  tbb::enumerable_thread_specific<CheckBuffers> buffers;
+  tbb::enumerable_thread_specific<CheckBuffers, std::pmr::polymorphic_allocator<CheckBuffers>> buffers;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, candidates.size(), 8), [&](const auto& range) {
     CheckBuffers& own = buffers.local();
     for (std::size_t i = range.begin(); i != range.end(); ++i) {
@@ -42,9 +42,9 @@ Results check_all(const SceneView& scene, const Gripper& gripper, const HandleCh
   return results;
 }
 
-std::vector<std::int32_t> spread_to_points(const std::vector<std::int32_t>& of_voxel,
-                                           const std::vector<std::uint32_t>& voxel_of_point) {
-  std::vector<std::int32_t> of_point(voxel_of_point.size());
+std::pmr::vector<std::int32_t> spread_to_points(const std::pmr::vector<std::int32_t>& of_voxel,
+                                                const std::pmr::vector<std::uint32_t>& voxel_of_point) {
+  std::pmr::vector<std::int32_t> of_point(voxel_of_point.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, of_point.size(), 16384), [&](const auto& range) {
     for (std::size_t i = range.begin(); i != range.end(); ++i) of_point[i] = of_voxel[voxel_of_point[i]];
   });
@@ -75,13 +75,14 @@ void count(const Candidate& candidate, Failure failure, SearchResult& out) {
 }
 
 /// The best by score of each object, ascending.
-std::vector<std::size_t> best_of_objects(const std::vector<Candidate>& candidates,
-                                         const std::vector<float>& scores, std::size_t most) {
-  std::vector<std::size_t> order(candidates.size());
+std::pmr::vector<std::size_t> best_of_objects(const std::pmr::vector<Candidate>& candidates,
+                                              const std::pmr::vector<float>& scores, std::size_t most) {
+  std::pmr::vector<std::size_t> order(candidates.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return scores[a] > scores[b]; });
-  std::map<std::int32_t, std::size_t> taken;
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return scores[a] != scores[b] ? scores[a] > scores[b] : a < b;
+  });
+  std::pmr::map<std::int32_t, std::size_t> taken;
   std::erase_if(order, [&](std::size_t i) { return ++taken[candidates[i].object] > most; });
   std::sort(order.begin(), order.end());
   return order;
@@ -89,13 +90,14 @@ std::vector<std::size_t> best_of_objects(const std::vector<Candidate>& candidate
 
 /// The candidates that pass in the sparse copy, the most promising ones of each object; counts those that
 /// fail.
-std::vector<Candidate> prefilter(const SceneView& sparse, const Gripper& gripper,
-                                 const HandleCheckConfig& config, const std::vector<Candidate>& candidates,
-                                 const ObjectOutlines& outlines, SearchResult& out) {
+std::pmr::vector<Candidate> prefilter(const SceneView& sparse, const Gripper& gripper,
+                                      const HandleCheckConfig& config,
+                                      const std::pmr::vector<Candidate>& candidates,
+                                      const ObjectOutlines& outlines, SearchResult& out) {
   constexpr std::size_t kMostOfAnObject = 12;
   const Results coarse = check_all(sparse, gripper, config, candidates, &outlines);
-  std::vector<Candidate> passed;
-  std::vector<float> scores;
+  std::pmr::vector<Candidate> passed;
+  std::pmr::vector<float> scores;
   passed.reserve(candidates.size());
   scores.reserve(candidates.size());
   for (std::size_t i = 0; i < candidates.size(); ++i) {
@@ -107,7 +109,7 @@ std::vector<Candidate> prefilter(const SceneView& sparse, const Gripper& gripper
     scores.push_back(score(coarse[i].margins));
   }
   // A few that passed in the sparse copy hold the few that are published.
-  std::vector<Candidate> promising;
+  std::pmr::vector<Candidate> promising;
   promising.reserve(passed.size());
   for (const std::size_t i : best_of_objects(passed, scores, kMostOfAnObject)) promising.push_back(passed[i]);
   return promising;
@@ -175,14 +177,14 @@ GuessSearch::GuessSearch(const CheckedScene& scene, const Objects& objects, cons
               kPointTolerance,
               kMinPoints} {}
 
-void GuessSearch::run(const std::vector<std::uint8_t>& wanted, SearchResult& out) const {
+void GuessSearch::run(const std::pmr::vector<std::uint8_t>& wanted, SearchResult& out) const {
   const HandleSearch search(input_, gripper_, config_.search, wanted);
-  std::vector<int> handles_of_object(wanted.size());
+  std::pmr::vector<int> handles_of_object(wanted.size());
   for (const SearchRound round : kSearchRounds) {
-    std::vector<std::uint8_t> open = wanted;
+    std::pmr::vector<std::uint8_t> open = wanted;
     for (std::size_t k = 0; k < open.size(); ++k)
       if (handles_of_object[k] >= enough_before(round)) open[k] = 0;
-    const std::vector<Candidate> left =
+    const std::pmr::vector<Candidate> left =
         prefilter(sparse_, gripper_, coarse_check_, search.candidates(round, open), outlines_, out);
     const Results fine = check_all(points_, gripper_, config_.check, left, nullptr);
     for (std::size_t k = 0; k < left.size(); ++k) {

@@ -3,6 +3,7 @@
 // The search for handles on the objects of one guess at what belongs together.
 #pragma once
 #include <cstdint>
+#include <memory_resource>
 #include <vector>
 
 #include "service/pipeline/detect_config.hpp"
@@ -40,8 +41,8 @@ struct FoundHandle {
 
 /// What was found, and what became of the rest.
 struct SearchResult {
-  std::vector<FoundHandle> handles;  ///< in the order of the candidates within each round
-  std::vector<SegmentReport> segments;
+  std::pmr::vector<FoundHandle> handles;  ///< in the order of the candidates within each round
+  std::pmr::vector<SegmentReport> segments;
   FailureCounts failures{};  ///< of all candidates tried
   int num_tried = 0;
 };
@@ -53,13 +54,13 @@ class GuessSearch {
               const DetectConfig& config);
 
   /// wanted: 1 for each object to search. Adds to out, which has a report for each segment.
-  void run(const std::vector<std::uint8_t>& wanted, SearchResult& out) const;
+  void run(const std::pmr::vector<std::uint8_t>& wanted, SearchResult& out) const;
 
  private:
   const Objects& objects_;
   const Gripper& gripper_;
   const DetectConfig& config_;
-  std::vector<std::int32_t> object_of_point_, object_of_sparse_;
+  std::pmr::vector<std::int32_t> object_of_point_, object_of_sparse_;
   ObjectOutlines outlines_;
   HandleCheckConfig coarse_check_;
   SearchInput input_;

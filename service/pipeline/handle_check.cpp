@@ -70,7 +70,7 @@ class Check {
   const Candidate& candidate_;
   CheckBuffers& buffers_;
   LocalPoints& local_;  // relative to the handle's position
-  std::vector<std::uint32_t>& between_;
+  std::pmr::vector<std::uint32_t>& between_;
   Handle handle_;
   HandleMargins margins_;
   Eigen::Vector3f squared_ = Eigen::Vector3f::Zero();  // closing axis that meets the object squarely

@@ -6,6 +6,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <memory_resource>
 #include <string_view>
 #include <vector>
 
@@ -96,14 +97,14 @@ struct CheckResult {
 
 /// Working memory of a check, kept from call to call.
 struct CheckBuffers {
-  LocalPoints local;                ///< around the candidate, relative to its fitted position
-  std::vector<std::int32_t> own;    ///< 1 for each of them that is the candidate's object's
-  std::vector<std::int32_t> marks;  ///< and what it leaves in the profile (BandTags)
-  std::vector<std::uint32_t> between;
-  std::vector<std::uint32_t> selected;  ///< room for one of each of them and the kernels' padding
-  std::vector<std::uint8_t> marked;     ///< 1 for each mark of the profile that a point left
-  std::vector<float> depths, widths;    ///< room for one value a point and the kernels' padding
-  std::vector<Eigen::Vector2f> profile;
+  LocalPoints local;                     ///< around the candidate, relative to its fitted position
+  std::pmr::vector<std::int32_t> own;    ///< 1 for each of them that is the candidate's object's
+  std::pmr::vector<std::int32_t> marks;  ///< and what it leaves in the profile (BandTags)
+  std::pmr::vector<std::uint32_t> between;
+  std::pmr::vector<std::uint32_t> selected;  ///< room for one of each of them and the kernels' padding
+  std::pmr::vector<std::uint8_t> marked;     ///< 1 for each mark of the profile that a point left
+  std::pmr::vector<float> depths, widths;    ///< room for one value a point and the kernels' padding
+  std::pmr::vector<Eigen::Vector2f> profile;
 };
 
 /// Fits position and width to what is between the jaws, then checks. A pure function of its arguments

@@ -28,7 +28,7 @@ bool same_place(const Handle& a, const Handle& b, const HandleRankingConfig& con
 }
 
 /// How new a place is beside the others of its object, 1 far from all of them.
-float novelty(const Handle& handle, const std::vector<const Handle*>& others, float falloff_m) {
+float novelty(const Handle& handle, const std::pmr::vector<const Handle*>& others, float falloff_m) {
   float nearest = std::numeric_limits<float>::infinity();
   for (const Handle* other : others)
     nearest = std::min(nearest, (handle.position - other->position).squaredNorm());
@@ -37,10 +37,10 @@ float novelty(const Handle& handle, const std::vector<const Handle*>& others, fl
 
 /// Adds the best places of one object, each the best of those left with regard to score and distance from the
 /// ones before: a handle elsewhere on the object is worth more than the same again.
-void choose_places(const std::vector<RankedHandle>& handles, std::vector<std::size_t> left,
-                   const HandleRankingConfig& config, std::vector<const Handle*>& kept,
-                   std::vector<std::size_t>& chosen) {
-  std::vector<const Handle*> own;
+void choose_places(const std::pmr::vector<RankedHandle>& handles, std::pmr::vector<std::size_t> left,
+                   const HandleRankingConfig& config, std::pmr::vector<const Handle*>& kept,
+                   std::pmr::vector<std::size_t>& chosen) {
+  std::pmr::vector<const Handle*> own;
   while (!left.empty() && static_cast<int>(own.size()) < config.max_per_object) {
     std::size_t best = 0;
     float best_worth = -1;
@@ -65,28 +65,29 @@ void choose_places(const std::vector<RankedHandle>& handles, std::vector<std::si
 }
 
 /// Indices of the handles that are kept, best first. leaders: the best of each object.
-std::vector<std::size_t> choose(const std::vector<RankedHandle>& handles, const HandleRankingConfig& config,
-                                std::vector<std::size_t>& leaders) {
-  std::vector<std::size_t> order(handles.size());
+std::pmr::vector<std::size_t> choose(const std::pmr::vector<RankedHandle>& handles,
+                                     const HandleRankingConfig& config,
+                                     std::pmr::vector<std::size_t>& leaders) {
+  std::pmr::vector<std::size_t> order(handles.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::erase_if(order, [&](std::size_t i) { return handles[i].handle.score < config.min_score; });
   const auto better = [&](std::size_t a, std::size_t b) {
-    return handles[a].handle.score > handles[b].handle.score;
+    const float score_a = handles[a].handle.score, score_b = handles[b].handle.score;
+    return score_a != score_b ? score_a > score_b : a < b;
   };
-  std::stable_sort(order.begin(), order.end(), better);
-  std::map<int, std::vector<std::size_t>> of_object;
+  std::sort(order.begin(), order.end(), better);
+  std::pmr::map<int, std::pmr::vector<std::size_t>> of_object;
   leaders.clear();
   for (const std::size_t i : order) {
-    std::vector<std::size_t>& own = of_object[handles[i].object];
+    std::pmr::vector<std::size_t>& own = of_object[handles[i].object];
     if (own.empty()) leaders.push_back(i);
     own.push_back(i);
   }
-  std::vector<const Handle*> kept;
-  std::vector<std::size_t> chosen;
+  std::pmr::vector<const Handle*> kept;
+  std::pmr::vector<std::size_t> chosen;
   for (const std::size_t leader : leaders)
     choose_places(handles, of_object[handles[leader].object], config, kept, chosen);
-  std::sort(chosen.begin(), chosen.end());
-  std::stable_sort(chosen.begin(), chosen.end(), better);
+  std::sort(chosen.begin(), chosen.end(), better);
   if (chosen.size() > static_cast<std::size_t>(config.max_handles))
     chosen.resize(static_cast<std::size_t>(config.max_handles));
   return chosen;
@@ -94,18 +95,18 @@ std::vector<std::size_t> choose(const std::vector<RankedHandle>& handles, const 
 
 }  // namespace
 
-std::vector<Handle> rank_handles(std::vector<RankedHandle> handles, const HandleRankingConfig& config,
-                                 const SettleScores& settle) {
-  std::vector<std::uint8_t> is_final(handles.size(), settle ? 0 : 1);
-  std::vector<std::size_t> leaders, open;
+std::pmr::vector<Handle> rank_handles(std::pmr::vector<RankedHandle> handles,
+                                      const HandleRankingConfig& config, const SettleScores& settle) {
+  std::pmr::vector<std::uint8_t> is_final(handles.size(), settle ? 0 : 1);
+  std::pmr::vector<std::size_t> leaders, open;
   for (;;) {
-    const std::vector<std::size_t> chosen = choose(handles, config, leaders);
+    const std::pmr::vector<std::size_t> chosen = choose(handles, config, leaders);
     open.clear();
     leaders.insert(leaders.end(), chosen.begin(), chosen.end());
     for (const std::size_t i : leaders)
       if (!std::exchange(is_final[i], std::uint8_t{1})) open.push_back(i);
     if (open.empty()) {
-      std::vector<Handle> ranked;
+      std::pmr::vector<Handle> ranked;
       ranked.reserve(chosen.size());
       for (const std::size_t i : chosen) ranked.push_back(handles[i].handle);
       return ranked;

@@ -3,6 +3,7 @@
 // Orders handles best first and keeps one for each distinct place.
 #pragma once
 #include <functional>
+#include <memory_resource>
 #include <vector>
 
 #include "service/pipeline/config_fields.hpp"
@@ -42,14 +43,14 @@ struct RankedHandle {
 
 /// Sets the final scores of the handles with these indices; each is asked for once.
 using SettleScores =
-    std::function<void(const std::vector<std::size_t>& which, std::vector<RankedHandle>& handles)>;
+    std::function<void(const std::pmr::vector<std::size_t>& which, std::pmr::vector<RankedHandle>& handles)>;
 
 /// One for each distinct place, max_per_object for each object: its best, and then those that score best with
 /// regard to how far they are from the ones before. Best score first; ties keep the order of the input.
 /// settle: scores are upper bounds, and it is asked for the final ones of those handles that the result
 /// depends on; without, they are final.
-[[nodiscard]] std::vector<Handle> rank_handles(std::vector<RankedHandle> handles,
-                                               const HandleRankingConfig& config,
-                                               const SettleScores& settle = {});
+[[nodiscard]] std::pmr::vector<Handle> rank_handles(std::pmr::vector<RankedHandle> handles,
+                                                    const HandleRankingConfig& config,
+                                                    const SettleScores& settle = {});
 
 }  // namespace graspd

@@ -18,7 +18,7 @@ constexpr std::size_t kMostSeedsInAllDirections = 16;
 
 /// Adds a unit vector unless one that differs by less than the angle is there; signless: opposite ones are
 /// the same.
-void add_distinct(std::vector<Eigen::Vector3f>& directions, const Eigen::Vector3f& v, float max_cosine,
+void add_distinct(std::pmr::vector<Eigen::Vector3f>& directions, const Eigen::Vector3f& v, float max_cosine,
                   bool signless) {
   if (!(v.norm() > 1e-3f)) return;
   const Eigen::Vector3f unit = v.normalized();
@@ -42,7 +42,7 @@ Eigen::Matrix3f gripper_axes(const Eigen::Vector3f& outward, const Eigen::Vector
 Eigen::Vector3f rectangle_axis(const PointCloud& cloud, const Segment& segment) {
   constexpr int kAngles = 36;
   constexpr std::size_t kMaxPoints = 400;
-  std::vector<float> x, y;
+  std::pmr::vector<float> x, y;
   const std::size_t step = std::max<std::size_t>(1, segment.points.size() / kMaxPoints);
   for (std::size_t k = 0; k < segment.points.size(); k += step) {
     const Eigen::Vector3f d = cloud.point(segment.points[k]) - segment.centroid;
@@ -72,7 +72,7 @@ Eigen::Vector3f rectangle_axis(const PointCloud& cloud, const Segment& segment) 
 
 /// Mean normal of the object's voxels near a seed. near: working memory, with room for them all.
 Eigen::Vector3f face_normal(const SearchInput& in, const PaddedPoints& object, std::uint32_t seed,
-                            std::vector<std::uint32_t>& near) {
+                            std::pmr::vector<std::uint32_t>& near) {
   constexpr float kRadius = 0.015f;
   const Eigen::Vector3f p = in.cloud.point(seed), n = in.normals.at(seed);
   near.resize(object.size() + kPointPadding);
@@ -83,8 +83,8 @@ Eigen::Vector3f face_normal(const SearchInput& in, const PaddedPoints& object, s
   return sum.norm() > 1e-3f ? sum.normalized() : n;
 }
 
-std::vector<std::vector<std::uint32_t>> points_by_object(const Objects& objects) {
-  std::vector<std::vector<std::uint32_t>> points(static_cast<std::size_t>(objects.num_objects));
+std::pmr::vector<std::pmr::vector<std::uint32_t>> points_by_object(const Objects& objects) {
+  std::pmr::vector<std::pmr::vector<std::uint32_t>> points(static_cast<std::size_t>(objects.num_objects));
   for (std::uint32_t i = 0; i < objects.of_point.size(); ++i)
     if (objects.of_point[i] >= 0) points[static_cast<std::size_t>(objects.of_point[i])].push_back(i);
   return points;
@@ -93,7 +93,7 @@ std::vector<std::vector<std::uint32_t>> points_by_object(const Objects& objects)
 }  // namespace
 
 HandleSearch::HandleSearch(const SearchInput& input, const Gripper& gripper, const HandleSearchConfig& config,
-                           const std::vector<std::uint8_t>& wanted)
+                           const std::pmr::vector<std::uint8_t>& wanted)
     : in_(input),
       gripper_(gripper),
       config_(config),
@@ -105,18 +105,19 @@ HandleSearch::HandleSearch(const SearchInput& input, const Gripper& gripper, con
     if (wanted[static_cast<std::size_t>(in_.objects.of_segment[s])])
       rectangle_axes_[s] = rectangle_axis(in_.cloud, in_.segments.list[s]);
   });
-  const std::vector<std::vector<std::uint32_t>> points = points_by_object(in_.objects);
+  const std::pmr::vector<std::pmr::vector<std::uint32_t>> points = points_by_object(in_.objects);
   tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t k) {
     if (wanted[k]) seeds_[k] = spread_seeds(points[k]);
   });
 }
 
-std::vector<HandleSearch::Seed> HandleSearch::spread_seeds(const std::vector<std::uint32_t>& points) const {
+std::pmr::vector<HandleSearch::Seed> HandleSearch::spread_seeds(
+    const std::pmr::vector<std::uint32_t>& points) const {
   PointCloud own;
   for (const std::uint32_t i : points) own.push_back(in_.cloud.point(i));
   const PaddedPoints object(in_.cloud, points);
-  std::vector<std::uint32_t> near;
-  std::vector<Seed> seeds;
+  std::pmr::vector<std::uint32_t> near;
+  std::pmr::vector<Seed> seeds;
   for (const std::uint32_t k : thin_out(own, config_.seed_spacing_m)) {
     const std::uint32_t seed = points[k];
     if (in_.segments.of_point[seed] >= 0)
@@ -176,7 +177,8 @@ HandleSearch::Directions HandleSearch::other_axes(const Eigen::Vector3f& outward
 
 /// One candidate a band of width e along an axis of the segment, from the centroid both ways (paper, section
 /// 5).
-void HandleSearch::add_bands(std::size_t s, const Eigen::Vector3f& axis, std::vector<Candidate>& out) const {
+void HandleSearch::add_bands(std::size_t s, const Eigen::Vector3f& axis,
+                             std::pmr::vector<Candidate>& out) const {
   constexpr int kMinBandPoints = 8;
   struct Band {
     Eigen::Vector3f sum = Eigen::Vector3f::Zero();
@@ -189,7 +191,7 @@ void HandleSearch::add_bands(std::size_t s, const Eigen::Vector3f& axis, std::ve
   float reach = 0;
   for (const std::uint32_t i : segment.points) reach = std::max(reach, std::abs(along(i)));
   const int half = static_cast<int>(std::lround(reach));
-  std::vector<Band> bands(static_cast<std::size_t>(2 * half + 1));
+  std::pmr::vector<Band> bands(static_cast<std::size_t>(2 * half + 1));
   for (const std::uint32_t i : segment.points) {
     const int k = std::clamp(static_cast<int>(std::lround(along(i))) + half, 0, 2 * half);
     bands[static_cast<std::size_t>(k)].sum += in_.cloud.point(i);
@@ -201,8 +203,8 @@ void HandleSearch::add_bands(std::size_t s, const Eigen::Vector3f& axis, std::ve
                      static_cast<std::int32_t>(s), in_.objects.of_segment[s]});
 }
 
-void HandleSearch::add_seeds(std::size_t object, SearchRound round, std::vector<Candidate>& out) const {
-  const std::vector<Seed>& seeds = seeds_[object];
+void HandleSearch::add_seeds(std::size_t object, SearchRound round, std::pmr::vector<Candidate>& out) const {
+  const std::pmr::vector<Seed>& seeds = seeds_[object];
   const bool all = round == SearchRound::kAllDirections;
   const std::size_t num_seeds = all ? std::min(kMostSeedsInAllDirections, seeds.size()) : seeds.size();
   for (std::size_t k = 0; k < num_seeds; ++k) {
@@ -222,9 +224,9 @@ void HandleSearch::add_seeds(std::size_t object, SearchRound round, std::vector<
   }
 }
 
-std::vector<Candidate> HandleSearch::candidates(SearchRound round,
-                                                const std::vector<std::uint8_t>& wanted) const {
-  std::vector<Candidate> candidates;
+std::pmr::vector<Candidate> HandleSearch::candidates(SearchRound round,
+                                                     const std::pmr::vector<std::uint8_t>& wanted) const {
+  std::pmr::vector<Candidate> candidates;
   if (config_.bands && round == SearchRound::kSurface)
     for (std::size_t s = 0; s < in_.segments.list.size(); ++s) {
       if (!wanted[static_cast<std::size_t>(in_.objects.of_segment[s])]) continue;

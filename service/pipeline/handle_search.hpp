@@ -5,6 +5,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <memory_resource>
 #include <optional>
 #include <vector>
 
@@ -57,33 +58,33 @@ class HandleSearch {
  public:
   /// input, gripper and config must outlive the search. wanted: 1 for each object that may be asked for.
   HandleSearch(const SearchInput& input, const Gripper& gripper, const HandleSearchConfig& config,
-               const std::vector<std::uint8_t>& wanted);
+               const std::pmr::vector<std::uint8_t>& wanted);
 
   /// wanted: 1 for each object that candidates are asked for, one of those that may be.
-  [[nodiscard]] std::vector<Candidate> candidates(SearchRound round,
-                                                  const std::vector<std::uint8_t>& wanted) const;
+  [[nodiscard]] std::pmr::vector<Candidate> candidates(SearchRound round,
+                                                       const std::pmr::vector<std::uint8_t>& wanted) const;
 
  private:
-  using Directions = std::vector<Eigen::Vector3f>;
+  using Directions = std::pmr::vector<Eigen::Vector3f>;
   struct Seed {
     std::uint32_t point;
     Directions outward;  // opposite to the approaches worth trying, the best first
   };
-  [[nodiscard]] std::vector<Seed> spread_seeds(const std::vector<std::uint32_t>& points) const;
+  [[nodiscard]] std::pmr::vector<Seed> spread_seeds(const std::pmr::vector<std::uint32_t>& points) const;
   /// n: of the face that the seed is on.
   [[nodiscard]] Directions outward_directions(std::uint32_t seed, const Eigen::Vector3f& n) const;
   [[nodiscard]] Directions major_axes(std::size_t segment, const Eigen::Vector3f& outward,
                                       SearchRound round) const;
   [[nodiscard]] Directions other_axes(const Eigen::Vector3f& outward, const Directions& tried) const;
-  void add_bands(std::size_t segment, const Eigen::Vector3f& axis, std::vector<Candidate>& out) const;
-  void add_seeds(std::size_t object, SearchRound round, std::vector<Candidate>& out) const;
+  void add_bands(std::size_t segment, const Eigen::Vector3f& axis, std::pmr::vector<Candidate>& out) const;
+  void add_seeds(std::size_t object, SearchRound round, std::pmr::vector<Candidate>& out) const;
 
   const SearchInput& in_;
   const Gripper& gripper_;
   const HandleSearchConfig& config_;
-  float max_cosine_;                      // between directions that are distinct
-  Directions rectangle_axes_;             // of each segment
-  std::vector<std::vector<Seed>> seeds_;  // of each object
+  float max_cosine_;                                // between directions that are distinct
+  Directions rectangle_axes_;                       // of each segment
+  std::pmr::vector<std::pmr::vector<Seed>> seeds_;  // of each object
 };
 
 }  // namespace graspd

@@ -77,7 +77,7 @@ struct OpenBlock {
 
 /// The group of the block that is near a depth; a new one where there is none.
 std::uint32_t group_at(OpenBlock& block, std::uint32_t row, const Eigen::Vector3f& p, float leaf_size_m,
-                       std::vector<Group>& groups) {
+                       std::pmr::vector<Group>& groups) {
   if (block.row != row) block = {row, {OpenBlock::kNone, OpenBlock::kNone, OpenBlock::kNone}};
   for (const std::uint32_t g : block.groups)
     if (g != OpenBlock::kNone && std::abs(groups[g].z - p.z()) < leaf_size_m) return g;
@@ -92,8 +92,8 @@ Downsampled thin_by_blocks(const PointCloud& cloud, const ImagePixels& pixels, c
                            float leaf_size_m) {
   const auto width = static_cast<std::uint32_t>(pixels.width);
   const BlockGrid grid(camera, pixels.width, leaf_size_m);
-  std::vector<OpenBlock> open(grid.num_columns());
-  std::vector<Group> groups;
+  std::pmr::vector<OpenBlock> open(grid.num_columns());
+  std::pmr::vector<Group> groups;
   groups.reserve(cloud.size());
   Downsampled result;
   result.voxel_of_point.resize(cloud.size());

@@ -75,8 +75,8 @@ class RowCursor {
 };
 
 /// The points of a cell whose neighbourhoods are wanted.
-void wanted_points(std::span<const std::uint32_t> cell, const std::vector<std::uint8_t>& skip,
-                   std::vector<std::uint32_t>& wanted) {
+void wanted_points(std::span<const std::uint32_t> cell, const std::pmr::vector<std::uint8_t>& skip,
+                   std::pmr::vector<std::uint32_t>& wanted) {
   wanted.clear();
   for (const std::uint32_t i : cell)
     if (skip.empty() || !skip[i]) wanted.push_back(i);
@@ -90,7 +90,7 @@ NeighborhoodSearch::NeighborhoodSearch(const PointCloud& cloud, const Neighborho
       order_(order_by_cell(cloud, config.radius_m)),
       points_(cloud, order_.points) {}
 
-Neighborhoods NeighborhoodSearch::find(const std::vector<std::uint8_t>& skip) const {
+Neighborhoods NeighborhoodSearch::find(const std::pmr::vector<std::uint8_t>& skip) const {
   Neighborhoods result;
   result.lists_.resize(cloud_.size());
   constexpr std::size_t kCellsPerChunk = 128;
@@ -104,8 +104,8 @@ Neighborhoods NeighborhoodSearch::find(const std::vector<std::uint8_t>& skip) co
     const std::size_t end = std::min(begin + kCellsPerChunk, order_.num_cells());
     RowCursor cursor(order_, points_, begin);
     RawVector<std::uint32_t>& list = result.storage_[chunk];
-    std::vector<std::uint32_t> wanted, done;
-    std::vector<std::size_t> ends{0};
+    std::pmr::vector<std::uint32_t> wanted, done;
+    std::pmr::vector<std::size_t> ends{0};
     for (std::size_t c = begin; c < end; ++c) {
       wanted_points(order_.cell(c), skip, wanted);
       if (wanted.empty()) continue;
@@ -129,7 +129,7 @@ Neighborhoods NeighborhoodSearch::find(const std::vector<std::uint8_t>& skip) co
 }
 
 Neighborhoods find_neighborhoods(const PointCloud& cloud, const NeighborhoodsConfig& config,
-                                 const std::vector<std::uint8_t>& skip) {
+                                 const std::pmr::vector<std::uint8_t>& skip) {
   return NeighborhoodSearch(cloud, config).find(skip);
 }
 

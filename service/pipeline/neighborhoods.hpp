@@ -4,6 +4,7 @@
 // growing.
 #pragma once
 #include <cstdint>
+#include <memory_resource>
 #include <span>
 #include <vector>
 
@@ -32,8 +33,8 @@ class Neighborhoods {
 
  private:
   friend class NeighborhoodSearch;
-  std::vector<std::span<const std::uint32_t>> lists_;
-  std::vector<RawVector<std::uint32_t>> storage_;
+  std::pmr::vector<std::span<const std::uint32_t>> lists_;
+  std::pmr::vector<RawVector<std::uint32_t>> storage_;
 };
 
 /// Finds neighbourhoods of some points of a cloud after others.
@@ -44,7 +45,7 @@ class NeighborhoodSearch {
 
   /// The order within a list is fixed by the points' positions. skip: 1 for each point whose own
   /// neighbourhood is not wanted (it still is a neighbour of others); may be empty.
-  [[nodiscard]] Neighborhoods find(const std::vector<std::uint8_t>& skip = {}) const;
+  [[nodiscard]] Neighborhoods find(const std::pmr::vector<std::uint8_t>& skip = {}) const;
 
  private:
   const PointCloud& cloud_;
@@ -55,6 +56,6 @@ class NeighborhoodSearch {
 
 /// The same for once.
 [[nodiscard]] Neighborhoods find_neighborhoods(const PointCloud& cloud, const NeighborhoodsConfig& config,
-                                               const std::vector<std::uint8_t>& skip = {});
+                                               const std::pmr::vector<std::uint8_t>& skip = {});
 
 }  // namespace graspd

@@ -117,7 +117,7 @@ void estimate_lanes(const PointCloud& cloud, const Neighborhoods& neighborhoods,
 
 Normals estimate_normals(const PointCloud& cloud, const Neighborhoods& neighborhoods) {
   const std::size_t n = cloud.size();
-  Normals normals{std::vector<float>(n), std::vector<float>(n), std::vector<float>(n)};
+  Normals normals{std::pmr::vector<float>(n), std::pmr::vector<float>(n), std::pmr::vector<float>(n)};
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, (n + kLanes - 1) / kLanes, 128),
                     [&](const auto& range) {
                       for (std::size_t group = range.begin(); group != range.end(); ++group) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Surface normals: the smallest principal axis of each neighbourhood, towards the sensor.
 #pragma once
+#include <memory_resource>
 #include <vector>
 
 #include "service/pipeline/neighborhoods.hpp"
@@ -12,7 +13,7 @@ namespace graspd {
 /// Unit vectors as a structure of arrays; zero where a neighbourhood has fewer than three points, is skipped,
 /// or has no plane.
 struct Normals {
-  std::vector<float> x, y, z;
+  std::pmr::vector<float> x, y, z;
 
   [[nodiscard]] std::size_t size() const { return x.size(); }
   [[nodiscard]] Eigen::Vector3f at(std::size_t i) const { return {x[i], y[i], z[i]}; }

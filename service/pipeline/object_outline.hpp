@@ -3,6 +3,7 @@
 // A few points of each object, spread evenly: enough to see at little cost that a candidate is much too wide.
 #pragma once
 #include <cstdint>
+#include <memory_resource>
 #include <vector>
 
 #include "service/pipeline/gripper.hpp"
@@ -14,7 +15,8 @@ namespace graspd {
 class ObjectOutlines {
  public:
   /// object_of_point: negative for none.
-  ObjectOutlines(const PointCloud& cloud, const std::vector<std::int32_t>& object_of_point, int num_objects);
+  ObjectOutlines(const PointCloud& cloud, const std::pmr::vector<std::int32_t>& object_of_point,
+                 int num_objects);
 
   /// Whether the candidate's object goes on without a gap for clearly more than the aperture along the
   /// closing axis, within the band and depth that the fingers would take. False says nothing.
@@ -23,7 +25,7 @@ class ObjectOutlines {
                                       LocalPoints& buffer) const;
 
  private:
-  std::vector<PaddedPoints> objects_;
+  std::pmr::vector<PaddedPoints> objects_;
 };
 
 }  // namespace graspd

@@ -14,10 +14,10 @@ struct Border {
   int pairs = 0;
   int convex = 0;
 };
-using Borders = std::map<std::pair<std::int32_t, std::int32_t>, Border>;
+using Borders = std::pmr::map<std::pair<std::int32_t, std::int32_t>, Border>;
 
 Borders find_borders(const PointCloud& cloud, const Normals& normals, const Neighborhoods& neighborhoods,
-                     const std::vector<std::int32_t>& group_of_point) {
+                     const std::pmr::vector<std::int32_t>& group_of_point) {
   Borders borders;
   for (std::uint32_t i = 0; i < cloud.size(); ++i) {
     const std::int32_t a = group_of_point[i];
@@ -35,15 +35,15 @@ Borders find_borders(const PointCloud& cloud, const Normals& normals, const Neig
 }
 
 /// Number of each group's set, in the order of their first groups.
-std::vector<std::int32_t> merge(std::size_t num_groups, const Borders& borders, int min_pairs,
-                                float min_convex_share, int& num_sets) {
+std::pmr::vector<std::int32_t> merge(std::size_t num_groups, const Borders& borders, int min_pairs,
+                                     float min_convex_share, int& num_sets) {
   UnionFind sets(num_groups);
   for (const auto& [pair, border] : borders) {
     if (border.pairs < min_pairs) continue;
     if (static_cast<float>(border.convex) < min_convex_share * static_cast<float>(border.pairs)) continue;
     sets.unite(static_cast<std::uint32_t>(pair.first), static_cast<std::uint32_t>(pair.second));
   }
-  std::vector<std::int32_t> set_of_group(num_groups, -1);
+  std::pmr::vector<std::int32_t> set_of_group(num_groups, -1);
   num_sets = 0;
   for (std::uint32_t g = 0; g < num_groups; ++g) {
     const std::uint32_t root = sets.find(g);
@@ -53,11 +53,11 @@ std::vector<std::int32_t> merge(std::size_t num_groups, const Borders& borders, 
 }
 
 /// Gives each point that has none the object of most of its neighbours.
-std::vector<std::int32_t> filled(const Neighborhoods& neighborhoods,
-                                 const std::vector<std::uint8_t>& is_support,
-                                 const std::vector<std::int32_t>& of_point) {
-  std::vector<std::int32_t> result = of_point;
-  std::map<std::int32_t, int> votes;
+std::pmr::vector<std::int32_t> filled(const Neighborhoods& neighborhoods,
+                                      const std::pmr::vector<std::uint8_t>& is_support,
+                                      const std::pmr::vector<std::int32_t>& of_point) {
+  std::pmr::vector<std::int32_t> result = of_point;
+  std::pmr::map<std::int32_t, int> votes;
   for (std::size_t i = 0; i < of_point.size(); ++i) {
     if (of_point[i] >= 0 || (!is_support.empty() && is_support[i])) continue;
     votes.clear();
@@ -73,16 +73,17 @@ std::vector<std::int32_t> filled(const Neighborhoods& neighborhoods,
   return result;
 }
 
-std::vector<Eigen::Vector3f> centers(const PointCloud& cloud, const Objects& objects) {
-  std::vector<Eigen::Vector3d> sum(static_cast<std::size_t>(objects.num_objects), Eigen::Vector3d::Zero());
-  std::vector<double> count(sum.size());
+std::pmr::vector<Eigen::Vector3f> centers(const PointCloud& cloud, const Objects& objects) {
+  std::pmr::vector<Eigen::Vector3d> sum(static_cast<std::size_t>(objects.num_objects),
+                                        Eigen::Vector3d::Zero());
+  std::pmr::vector<double> count(sum.size());
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     if (objects.of_point[i] < 0) continue;
     const auto object = static_cast<std::size_t>(objects.of_point[i]);
     sum[object] += cloud.point(i).cast<double>();
     ++count[object];
   }
-  std::vector<Eigen::Vector3f> result;
+  std::pmr::vector<Eigen::Vector3f> result;
   for (std::size_t k = 0; k < sum.size(); ++k) result.emplace_back((sum[k] / count[k]).cast<float>());
   return result;
 }
@@ -90,7 +91,7 @@ std::vector<Eigen::Vector3f> centers(const PointCloud& cloud, const Objects& obj
 }  // namespace
 
 Objects group_segments(const PointCloud& cloud, const Normals& normals, const Neighborhoods& neighborhoods,
-                       const Segments& segments, const std::vector<std::uint8_t>& is_support,
+                       const Segments& segments, const std::pmr::vector<std::uint8_t>& is_support,
                        const ObjectsConfig& config) {
   const Borders borders = find_borders(cloud, normals, neighborhoods, segments.of_point);
   Objects objects;
@@ -111,11 +112,11 @@ Objects merge_objects(const PointCloud& cloud, const Normals& normals, const Nei
                       const Objects& objects, const ObjectsConfig& config) {
   const Borders borders = find_borders(cloud, normals, neighborhoods, objects.of_point);
   Objects wholes;
-  const std::vector<std::int32_t> whole =
+  const std::pmr::vector<std::int32_t> whole =
       merge(static_cast<std::size_t>(objects.num_objects), borders, config.min_border_pairs,
             config.min_whole_convex_share, wholes.num_objects);
-  const auto mapped = [&whole](const std::vector<std::int32_t>& of) {
-    std::vector<std::int32_t> result = of;
+  const auto mapped = [&whole](const std::pmr::vector<std::int32_t>& of) {
+    std::pmr::vector<std::int32_t> result = of;
     for (std::int32_t& k : result)
       if (k >= 0) k = whole[static_cast<std::size_t>(k)];
     return result;

@@ -3,6 +3,7 @@
 // Object hypotheses: segments that meet at a convex border are taken for one object.
 #pragma once
 #include <cstdint>
+#include <memory_resource>
 #include <vector>
 
 #include "service/pipeline/neighborhoods.hpp"
@@ -31,9 +32,9 @@ inline constexpr std::int32_t kSupportObject = -2;  ///< of the points of the su
 
 struct Objects {
   int num_objects = 0;
-  std::vector<std::int32_t> of_segment;  ///< object of each segment
-  std::vector<std::int32_t> of_point;    ///< object of each point; negative: none
-  std::vector<Eigen::Vector3f> center;   ///< mean of each object's points
+  std::pmr::vector<std::int32_t> of_segment;  ///< object of each segment
+  std::pmr::vector<std::int32_t> of_point;    ///< object of each point; negative: none
+  std::pmr::vector<Eigen::Vector3f> center;   ///< mean of each object's points
 };
 
 /// A pair of neighbours i, j of two segments is convex when (n_i - n_j) . (p_i - p_j) > 0. Points in no
@@ -41,7 +42,7 @@ struct Objects {
 /// empty).
 [[nodiscard]] Objects group_segments(const PointCloud& cloud, const Normals& normals,
                                      const Neighborhoods& neighborhoods, const Segments& segments,
-                                     const std::vector<std::uint8_t>& is_support,
+                                     const std::pmr::vector<std::uint8_t>& is_support,
                                      const ObjectsConfig& config);
 
 /// A coarser guess for where the first one fails: objects that meet at a border which does not speak against

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory_resource>
 #include <vector>
 
 #include "service/pipeline/bin_set.hpp"
@@ -50,7 +51,7 @@ int nearest(const BinSet& bins, int bin, int within) {
 
 /// Depth that only a few of the object's points between f_min and f_max are above.
 bool find_top(CheckBuffers& buffers, float f_min, float f_max, float& top_m) {
-  std::vector<float>& z = buffers.depths;
+  std::pmr::vector<float>& z = buffers.depths;
   const std::size_t n =
       point_kernels().keep_depths(buffers.local.band(), buffers.own.data(), f_min, f_max, z.data());
   if (n < 4) return false;

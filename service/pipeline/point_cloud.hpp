@@ -4,6 +4,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <cstddef>
+#include <memory_resource>
 #include <vector>
 
 namespace graspd {
@@ -11,7 +12,7 @@ namespace graspd {
 /// Points as a structure of arrays [m], in the cloud's frame. Missing points are NaN. Holds coordinates
 /// alone: colours and labels never reach the pipeline.
 struct PointCloud {
-  std::vector<float> x, y, z;
+  std::pmr::vector<float> x, y, z;
   /// Organized clouds: size() == width * height, row by row. Unorganized: height is 1.
   int width = 0;
   int height = 1;

@@ -3,15 +3,18 @@
 // Large arrays that are written right after they are made: filling them with zeros first would cost as much.
 #pragma once
 #include <memory>
+#include <memory_resource>
 #include <new>
 #include <utility>
 #include <vector>
 
 namespace graspd {
 
-/// std::allocator, but what resize() adds is not initialised.
+/// std::pmr::polymorphic_allocator, but what resize() adds is not initialised.
 template <class T>
-struct RawAllocator : std::allocator<T> {
+struct RawAllocator : std::pmr::polymorphic_allocator<T> {
+  using std::pmr::polymorphic_allocator<T>::polymorphic_allocator;
+
   template <class U>
   struct rebind {
     using other = RawAllocator<U>;
@@ -24,6 +27,7 @@ struct RawAllocator : std::allocator<T> {
   void construct(U* place, Arguments&&... arguments) {
     std::construct_at(place, std::forward<Arguments>(arguments)...);
   }
+  [[nodiscard]] RawAllocator select_on_container_copy_construction() const { return {}; }
 };
 
 /// T: a type whose default initialisation does nothing.

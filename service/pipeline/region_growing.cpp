@@ -15,7 +15,7 @@ float cos_deg(float angle_deg) {
 }
 
 UnionFind link(const Normals& normals, const Neighborhoods& neighborhoods,
-               const std::vector<std::uint8_t>& is_edge, const std::vector<std::uint8_t>& excluded,
+               const std::pmr::vector<std::uint8_t>& is_edge, const std::pmr::vector<std::uint8_t>& excluded,
                const SmoothnessConfig& config) {
   const float cos_low = cos_deg(config.theta_low_deg), cos_high = cos_deg(config.theta_high_deg);
   UnionFind sets(normals.size());
@@ -39,7 +39,7 @@ UnionFind link(const Normals& normals, const Neighborhoods& neighborhoods,
 
 /// Label of the neighbour with the most similar normal that has one, or -1.
 std::int32_t most_similar_label(const Normals& normals, std::span<const std::uint32_t> neighborhood,
-                                std::size_t s, const std::vector<std::int32_t>& labels) {
+                                std::size_t s, const std::pmr::vector<std::int32_t>& labels) {
   std::int32_t label = -1;
   float best = -2;
   for (const std::uint32_t p : neighborhood) {
@@ -54,18 +54,18 @@ std::int32_t most_similar_label(const Normals& normals, std::span<const std::uin
 }  // namespace
 
 Labels grow_regions(const Normals& normals, const Neighborhoods& neighborhoods,
-                    const std::vector<std::uint8_t>& is_edge, const std::vector<std::uint8_t>& excluded,
-                    const SmoothnessConfig& config) {
+                    const std::pmr::vector<std::uint8_t>& is_edge,
+                    const std::pmr::vector<std::uint8_t>& excluded, const SmoothnessConfig& config) {
   const std::size_t n = normals.size();
   const auto takes_part = [&excluded](std::size_t s) { return excluded.empty() || !excluded[s]; };
   UnionFind sets = link(normals, neighborhoods, is_edge, excluded, config);
-  std::vector<std::uint8_t> has_surface(
+  std::pmr::vector<std::uint8_t> has_surface(
       n);  // by representative: the component has a point that is no edge point
   for (std::uint32_t s = 0; s < n; ++s)
     if (!is_edge[s] && takes_part(s)) has_surface[sets.find(s)] = 1;
 
   Labels result;
-  std::vector<std::int32_t> label_of_root(n, -1), grown(n, -1);
+  std::pmr::vector<std::int32_t> label_of_root(n, -1), grown(n, -1);
   for (std::uint32_t s = 0; s < n; ++s) {
     const std::uint32_t root = sets.find(s);
     if (!has_surface[root]) continue;

@@ -6,6 +6,7 @@
 // that has no other kind takes the label of its most similar neighbour in a component that has.
 #pragma once
 #include <cstdint>
+#include <memory_resource>
 #include <vector>
 
 #include "service/pipeline/edge_points.hpp"
@@ -13,7 +14,7 @@
 namespace graspd {
 
 struct Labels {
-  std::vector<std::int32_t>
+  std::pmr::vector<std::int32_t>
       of_point;        ///< label of each point; -1: excluded, or an edge point that no surface is near
   int num_labels = 0;  ///< labels are 0 .. num_labels - 1, by the first point of each
 };
@@ -21,7 +22,8 @@ struct Labels {
 /// excluded: 1 for each point that takes no part and keeps the label -1 (the support's, which would join the
 /// objects on it); may be empty.
 [[nodiscard]] Labels grow_regions(const Normals& normals, const Neighborhoods& neighborhoods,
-                                  const std::vector<std::uint8_t>& is_edge,
-                                  const std::vector<std::uint8_t>& excluded, const SmoothnessConfig& config);
+                                  const std::pmr::vector<std::uint8_t>& is_edge,
+                                  const std::pmr::vector<std::uint8_t>& excluded,
+                                  const SmoothnessConfig& config);
 
 }  // namespace graspd

@@ -31,13 +31,13 @@ void set_axes(const PointCloud& cloud, Segment& segment) {
 
 Segments build_segments(const PointCloud& cloud, const Labels& labels, float leaf_size_m,
                         const SegmentsConfig& config) {
-  std::vector<std::uint32_t> count(static_cast<std::size_t>(labels.num_labels));
+  std::pmr::vector<std::uint32_t> count(static_cast<std::size_t>(labels.num_labels));
   for (const std::int32_t label : labels.of_point)
     if (label >= 0) ++count[static_cast<std::size_t>(label)];
   const float min_points = std::max(3.0f, config.min_area_m2 / (leaf_size_m * leaf_size_m));
 
   Segments segments;
-  std::vector<std::int32_t> segment_of_label(count.size(), -1);
+  std::pmr::vector<std::int32_t> segment_of_label(count.size(), -1);
   for (std::size_t label = 0; label < count.size(); ++label) {
     if (static_cast<float>(count[label]) < min_points) continue;
     segment_of_label[label] = static_cast<std::int32_t>(segments.list.size());

@@ -3,6 +3,7 @@
 // Segments: the surfaces that are large enough to hold, with their principal axes (paper, section 5).
 #pragma once
 #include <cstdint>
+#include <memory_resource>
 #include <vector>
 
 #include "service/pipeline/config_fields.hpp"
@@ -22,7 +23,7 @@ struct SegmentsConfig {
 };
 
 struct Segment {
-  std::vector<std::uint32_t> points;  ///< indices into the cloud, ascending
+  std::pmr::vector<std::uint32_t> points;  ///< indices into the cloud, ascending
   Eigen::Vector3f centroid = Eigen::Vector3f::Zero();
   Eigen::Vector3f normal = Eigen::Vector3f::UnitZ();  ///< n: smallest principal axis, towards the sensor
   Eigen::Vector3f major = Eigen::Vector3f::UnitX();   ///< a: largest principal axis
@@ -30,8 +31,8 @@ struct Segment {
 };
 
 struct Segments {
-  std::vector<Segment> list;
-  std::vector<std::int32_t> of_point;  ///< index into list for each point; -1: in no segment
+  std::pmr::vector<Segment> list;
+  std::pmr::vector<std::int32_t> of_point;  ///< index into list for each point; -1: in no segment
 };
 
 /// leaf_size_m: of the voxels, to turn the area into a number of points.

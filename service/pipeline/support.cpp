@@ -32,14 +32,14 @@ RawVector<float> heights_above(const Plane& plane, const PointCloud& cloud) {
   return heights;
 }
 
-std::vector<std::uint8_t> points_above(const RawVector<float>& heights, float lowest_m) {
-  std::vector<std::uint8_t> is_above(heights.size());
+std::pmr::vector<std::uint8_t> points_above(const RawVector<float>& heights, float lowest_m) {
+  std::pmr::vector<std::uint8_t> is_above(heights.size());
   for (std::size_t i = 0; i < heights.size(); ++i) is_above[i] = heights[i] > lowest_m ? 1 : 0;
   return is_above;
 }
 
-std::vector<std::uint8_t> points_within(const RawVector<float>& heights, float distance_m) {
-  std::vector<std::uint8_t> is_within(heights.size());
+std::pmr::vector<std::uint8_t> points_within(const RawVector<float>& heights, float distance_m) {
+  std::pmr::vector<std::uint8_t> is_within(heights.size());
   for (std::size_t i = 0; i < heights.size(); ++i) is_within[i] = std::abs(heights[i]) < distance_m ? 1 : 0;
   return is_within;
 }
@@ -52,7 +52,7 @@ struct Sample {
 /// Every k-th point: voxels are spread evenly over surfaces, so that this is too.
 Sample take_sample(CoarseSurface& coarse) {
   const std::size_t step = std::max<std::size_t>(1, coarse.size() / kSampleSize);
-  std::vector<std::uint8_t> wanted(coarse.size(), step < kFewTimes ? 1 : 0);
+  std::pmr::vector<std::uint8_t> wanted(coarse.size(), step < kFewTimes ? 1 : 0);
   for (std::size_t i = 0; i < coarse.size(); i += step) wanted[i] = 1;
   coarse.prepare(wanted);
   Sample sample;
@@ -96,14 +96,14 @@ std::optional<Plane> best_hypothesis(const Sample& sample, const SupportConfig& 
                                      const Eigen::Vector3f& viewpoint) {
   if (sample.points.size() < 3) return std::nullopt;
   std::minstd_rand random(1);
-  std::vector<Plane> planes;
+  std::pmr::vector<Plane> planes;
   for (int trial = 0; trial < 20 * config.hypotheses && static_cast<int>(planes.size()) < config.hypotheses;
        ++trial) {
     std::array<std::size_t, 3> at{};
     for (std::size_t& i : at) i = random() % sample.points.size();
     if (const auto plane = plane_through(sample, at, min_cosine, viewpoint)) planes.push_back(*plane);
   }
-  std::vector<int> scores(planes.size());
+  std::pmr::vector<int> scores(planes.size());
   tbb::parallel_for(std::size_t{0}, planes.size(), [&](std::size_t i) {
     scores[i] = plane_score(sample, planes[i], config.thickness_m, min_cosine);
   });
@@ -121,7 +121,7 @@ struct PlaneLimits {
 /// Least squares over the inliers; returns their number.
 std::size_t refine(CoarseSurface& coarse, const PlaneLimits& limits, Plane& plane) {
   const RawVector<float> heights = heights_above(plane, coarse.cloud());
-  const std::vector<std::uint8_t> is_near = points_within(heights, limits.thickness_m);
+  const std::pmr::vector<std::uint8_t> is_near = points_within(heights, limits.thickness_m);
   // With some to spare for the next rounds.
   if (!coarse.has(is_near)) coarse.prepare(points_within(heights, 2 * limits.thickness_m));
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -146,12 +146,12 @@ std::size_t refine(CoarseSurface& coarse, const PlaneLimits& limits, Plane& plan
 
 /// Largest number of points of a plane that hang together.
 std::size_t connected_points(const CoarseSurface& coarse, const Plane& plane, const PlaneLimits& limits) {
-  std::vector<std::uint8_t> belongs =
+  std::pmr::vector<std::uint8_t> belongs =
       points_within(heights_above(plane, coarse.cloud()), 1.5f * limits.thickness_m);
   for (std::size_t i = 0; i < belongs.size(); ++i)
     if (belongs[i] != 0 && plane.normal.dot(coarse.normals().at(i)) <= limits.min_cosine) belongs[i] = 0;
   UnionFind sets(coarse.size());
-  std::vector<std::size_t> count(coarse.size());
+  std::pmr::vector<std::size_t> count(coarse.size());
   for (std::uint32_t i = 0; i < coarse.size(); ++i) {
     if (belongs[i] == 0) continue;
     for (const std::uint32_t j : coarse.neighborhoods().of(i))
@@ -170,7 +170,7 @@ Plane highest_parallel(CoarseSurface& coarse, const Plane& plane, const PlaneLim
   const RawVector<float> heights = heights_above(plane, coarse.cloud());
   // Those of the lowest level, too.
   coarse.prepare(points_above(heights, kWellAbove - 3 * limits.thickness_m));
-  std::vector<std::size_t> levels;  // points with the plane's normal, by height above it
+  std::pmr::vector<std::size_t> levels;  // points with the plane's normal, by height above it
   for (std::size_t i = 0; i < coarse.size(); ++i) {
     if (heights[i] < kWellAbove || plane.normal.dot(coarse.normals().at(i)) <= limits.min_cosine) continue;
     const auto level = static_cast<std::size_t>(heights[i] / limits.thickness_m);
@@ -210,10 +210,10 @@ float support_thickness(const Eigen::Vector3f& p, const Eigen::Vector3f& viewpoi
 
 namespace {
 
-std::vector<std::uint8_t> points_of(const Support& support, const PointCloud& cloud,
-                                    const SupportConfig& config) {
+std::pmr::vector<std::uint8_t> points_of(const Support& support, const PointCloud& cloud,
+                                         const SupportConfig& config) {
   const float least = support_thickness(cloud.viewpoint, cloud.viewpoint, support.sigma_m, config);
-  std::vector<std::uint8_t> is_support(cloud.size());
+  std::pmr::vector<std::uint8_t> is_support(cloud.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cloud.size(), 8192), [&](const auto& range) {
     for (std::size_t i = range.begin(); i != range.end(); ++i) {
       const Eigen::Vector3f p = cloud.point(i);

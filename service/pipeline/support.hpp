@@ -3,6 +3,7 @@
 // The plane that objects stand on, where there is one.
 #pragma once
 #include <cstdint>
+#include <memory_resource>
 #include <optional>
 #include <vector>
 
@@ -49,8 +50,8 @@ struct SupportConfig {
 
 struct Support {
   Plane plane;
-  float sigma_m = 0;                     ///< scatter of its points about the plane
-  std::vector<std::uint8_t> is_support;  ///< 1 for each point that belongs to the plane or lies below it
+  float sigma_m = 0;                          ///< scatter of its points about the plane
+  std::pmr::vector<std::uint8_t> is_support;  ///< 1 for each point that belongs to the plane or lies below it
 };
 
 /// RANSAC over points and normals of a coarser copy of the cloud, then least squares. It comes before the

@@ -28,16 +28,17 @@ Normals surface_normals(const PointCloud& cloud, const Neighborhoods& neighborho
   return normals;
 }
 
-void mark_support(const Support& support, std::vector<std::int32_t>& object_of_point) {
+void mark_support(const Support& support, std::pmr::vector<std::int32_t>& object_of_point) {
   for (std::size_t i = 0; i < object_of_point.size(); ++i)
     if (support.is_support[i]) object_of_point[i] = kSupportObject;
 }
 
 /// Marks the walls of a container as fixed and takes them out of the labels; false where there is none.
-bool take_out_container(const Surfaces& s, const DetectConfig& config, std::vector<std::uint8_t>& is_fixed,
-                        Labels& labels) {
+bool take_out_container(const Surfaces& s, const DetectConfig& config,
+                        std::pmr::vector<std::uint8_t>& is_fixed, Labels& labels) {
   if (!s.support) return false;
-  const std::vector<std::uint8_t> is_wall = find_container(s.cloud, s.segments, *s.support, config.container);
+  const std::pmr::vector<std::uint8_t> is_wall =
+      find_container(s.cloud, s.segments, *s.support, config.container);
   for (std::size_t i = 0; i < is_wall.size(); ++i) {
     if (!is_wall[i]) continue;
     is_fixed[i] = 1;
@@ -66,14 +67,14 @@ SparseVoxels spread_thinly(const PointCloud& voxels, float spacing_m) {
 void find_objects(const Neighborhoods& neighborhoods, const DetectConfig& config, const StageObserver& done,
                   Surfaces& s) {
   const float leaf = config.downsample.leaf_size_m;
-  const std::vector<std::uint8_t> none;
-  const std::vector<std::uint8_t>& is_support = s.support ? s.support->is_support : none;
+  const std::pmr::vector<std::uint8_t> none;
+  const std::pmr::vector<std::uint8_t>& is_support = s.support ? s.support->is_support : none;
   s.is_edge = find_edge_points(s.normals, neighborhoods, config.smoothness);
   done("edge_points");
   Labels labels = grow_regions(s.normals, neighborhoods, s.is_edge, is_support, config.smoothness);
   done("region_growing");
   s.segments = build_segments(s.cloud, labels, leaf, config.segments);
-  std::vector<std::uint8_t> is_fixed = is_support;
+  std::pmr::vector<std::uint8_t> is_fixed = is_support;
   if (take_out_container(s, config, is_fixed, labels))
     s.segments = build_segments(s.cloud, labels, leaf, config.segments);
   done("segments");
@@ -93,8 +94,8 @@ Surfaces find_surfaces(const PointCloud& cloud, const DetectConfig& config, cons
   s.voxel_of_point = std::move(voxels.voxel_of_point);
   done("downsample");
   s.support = find_support(s.cloud, config.support);
-  const std::vector<std::uint8_t> none;
-  const std::vector<std::uint8_t>& is_support = s.support ? s.support->is_support : none;
+  const std::pmr::vector<std::uint8_t> none;
+  const std::pmr::vector<std::uint8_t>& is_support = s.support ? s.support->is_support : none;
   done("support");
   Neighborhoods neighborhoods = find_neighborhoods(s.cloud, config.neighborhoods, is_support);
   done("neighborhoods");

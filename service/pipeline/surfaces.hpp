@@ -4,6 +4,7 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <memory_resource>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -19,7 +20,7 @@ using StageObserver = std::function<void(std::string_view stage)>;
 /// Voxels spread more thinly, for first looks at many candidates.
 struct SparseVoxels {
   PointCloud cloud;
-  std::vector<std::uint32_t> voxel;  ///< that each of them is
+  std::pmr::vector<std::uint32_t> voxel;  ///< that each of them is
   float spacing_m = 0;
   BoxQuery query;
 };
@@ -28,9 +29,9 @@ struct SparseVoxels {
 struct Surfaces {
   PointCloud cloud;
   SparseVoxels sparse;
-  std::vector<std::uint32_t> voxel_of_point;  ///< for each point before downsampling
+  std::pmr::vector<std::uint32_t> voxel_of_point;  ///< for each point before downsampling
   Normals normals;
-  std::vector<std::uint8_t> is_edge;
+  std::pmr::vector<std::uint8_t> is_edge;
   std::optional<Support> support;
   Segments segments;
   Objects objects;

@@ -8,9 +8,9 @@
 
 namespace graspd {
 
-std::vector<std::uint32_t> thin_out(const PointCloud& cloud, float spacing_m) {
+std::pmr::vector<std::uint32_t> thin_out(const PointCloud& cloud, float spacing_m) {
   const CellOrder order = order_by_cell(cloud, spacing_m);
-  std::vector<std::uint32_t> chosen(order.num_cells());
+  std::pmr::vector<std::uint32_t> chosen(order.num_cells());
   for (std::size_t c = 0; c < order.num_cells(); ++c) {
     const std::span<const std::uint32_t> cell = order.cell(c);
     Eigen::Vector3f mean = Eigen::Vector3f::Zero();

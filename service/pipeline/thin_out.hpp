@@ -3,6 +3,7 @@
 // Points of a cloud that stand for it, evenly spread.
 #pragma once
 #include <cstdint>
+#include <memory_resource>
 #include <vector>
 
 #include "service/pipeline/point_cloud.hpp"
@@ -11,6 +12,6 @@ namespace graspd {
 
 /// In each occupied cell of the spacing [m] the point nearest to the mean of those in it, in the order of the
 /// cells. All points must be finite.
-[[nodiscard]] std::vector<std::uint32_t> thin_out(const PointCloud& cloud, float spacing_m);
+[[nodiscard]] std::pmr::vector<std::uint32_t> thin_out(const PointCloud& cloud, float spacing_m);
 
 }  // namespace graspd

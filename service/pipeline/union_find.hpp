@@ -3,6 +3,7 @@
 // Disjoint sets whose representative is the smallest member, whatever the order of the unions.
 #pragma once
 #include <cstdint>
+#include <memory_resource>
 #include <numeric>
 #include <vector>
 
@@ -30,7 +31,7 @@ class UnionFind {
   }
 
  private:
-  std::vector<std::uint32_t> parent_;
+  std::pmr::vector<std::uint32_t> parent_;
 };
 
 }  // namespace graspd

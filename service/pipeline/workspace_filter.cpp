@@ -88,7 +88,7 @@ WorkspaceResult filter_workspace(const PointCloud& cloud, const WorkspaceFilterC
     result.pixels.height = cloud.height;
     positions.resize(cloud.size());
   }
-  std::vector<Kept> counts((cloud.size() + kChunk - 1) / kChunk);
+  std::pmr::vector<Kept> counts((cloud.size() + kChunk - 1) / kChunk);
   tbb::parallel_for(std::size_t{0}, counts.size(), [&](std::size_t c) {
     counts[c] = keep_inside(cloud, config, c * kChunk, std::min((c + 1) * kChunk, cloud.size()), kept,
                             positions.empty() ? nullptr : positions.data());

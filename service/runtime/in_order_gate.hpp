@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory_resource>
 #include <mutex>
 #include <utility>
 
@@ -53,7 +54,7 @@ class InOrderGate {
  private:
   const Publish publish_;
   mutable std::mutex mutex_;
-  std::map<Ticket, Result> waiting_;
+  std::pmr::map<Ticket, Result> waiting_;
   Ticket next_ticket_ = 0;
   Ticket next_out_ = 0;
   bool publishing_ = false;

@@ -10,7 +10,7 @@
 
 namespace graspd {
 
-KeptMemory::KeptMemory(std::pmr::memory_resource* upstream) : upstream_(upstream) {}
+KeptMemory::KeptMemory(std::pmr::memory_resource* upstream) : upstream_(upstream), chunks_(upstream) {}
 
 KeptMemory::~KeptMemory() {
   give_back();
@@ -19,6 +19,7 @@ KeptMemory::~KeptMemory() {
 void KeptMemory::give_back() {
   for (std::size_t list = 0; list < kNumLists; ++list)
     give_back(list, std::numeric_limits<std::uint32_t>::max());
+  chunks_.give_back(0);
 }
 
 /// The sizes of an octave are 5, 6, 7 and 8 eighths of kSmallest << octave.
@@ -42,6 +43,7 @@ bool KeptMemory::is_kept(std::size_t bytes, std::size_t alignment) {
 void* KeptMemory::do_allocate(std::size_t bytes, std::size_t alignment) {
   if (!is_kept(bytes, alignment)) return upstream_->allocate(bytes, alignment);
   if (num_allocations_.fetch_add(1, std::memory_order_relaxed) % kLookEvery == kLookEvery - 1) look();
+  if (bytes > kLargestListed) return chunks_.allocate(bytes);
   const std::size_t number = list_of(bytes);
   List& list = lists_[number];
   {
@@ -53,12 +55,13 @@ void* KeptMemory::do_allocate(std::size_t bytes, std::size_t alignment) {
     list.least_free = 0;
   }
   void* place = upstream_->allocate(block_bytes(number), kAlignment);
-  held_bytes_.fetch_add(block_bytes(number), std::memory_order_relaxed);
+  listed_bytes_.fetch_add(block_bytes(number), std::memory_order_relaxed);
   return place;
 }
 
 void KeptMemory::do_deallocate(void* place, std::size_t bytes, std::size_t alignment) {
   if (!is_kept(bytes, alignment)) return upstream_->deallocate(place, bytes, alignment);
+  if (bytes > kLargestListed) return chunks_.deallocate(place, bytes);
   List& list = lists_[list_of(bytes)];
   const std::lock_guard lock(list.mutex);
   list.free = ::new (place) Block{list.free};
@@ -71,15 +74,16 @@ bool KeptMemory::do_is_equal(const memory_resource& other) const noexcept {
 
 void KeptMemory::look() {
   std::array<std::uint32_t, kNumLists> spare{};
-  std::size_t spare_bytes = 0;
+  std::size_t spare_bytes = chunks_.look_for_idle();
   for (std::size_t number = 0; number < kNumLists; ++number) {
     List& list = lists_[number];
     const std::lock_guard lock(list.mutex);
     spare[number] = std::exchange(list.least_free, list.num_free);
     spare_bytes += spare[number] * block_bytes(number);
   }
-  if (spare_bytes <= held_bytes_ / 2) return;
+  if (spare_bytes <= held_bytes() / 2) return;
   for (std::size_t number = 0; number < kNumLists; ++number) give_back(number, spare[number]);
+  chunks_.give_back(2);
 }
 
 void KeptMemory::give_back(std::size_t number, std::uint32_t at_most) {
@@ -88,7 +92,7 @@ void KeptMemory::give_back(std::size_t number, std::uint32_t at_most) {
   for (; at_most > 0 && list.free != nullptr; --at_most) {
     Block* block = std::exchange(list.free, list.free->next);
     upstream_->deallocate(block, block_bytes(number), kAlignment);
-    held_bytes_.fetch_sub(block_bytes(number), std::memory_order_relaxed);
+    listed_bytes_.fetch_sub(block_bytes(number), std::memory_order_relaxed);
     --list.num_free;
   }
   list.least_free = std::min(list.least_free, list.num_free);

@@ -9,16 +9,19 @@
 #include <memory_resource>
 #include <mutex>
 
+#include "service/runtime/chunk_memory.hpp"
+
 namespace graspd {
 
-/// Keeps what is freed in lists by size, four sizes an octave, and hands it out again. Blocks of more than
-/// kLargestKept bytes, or aligned to more than kAlignment, come from upstream and go back there at once. Now
-/// and then it looks at what nobody has needed since it looked before; when that is more than half of
-/// everything, a far larger frame has gone by, and it goes back upstream. All functions may be called from
-/// any thread. Everything must be freed before the destructor.
+/// Keeps what is freed and hands it out again: up to kLargestListed bytes in lists by size, four sizes an
+/// octave, more in chunks. Blocks of more than kLargestKept bytes, or aligned to more than kAlignment, come
+/// from upstream and go back there at once. Now and then it looks at what nobody has needed since it looked
+/// before; when that is more than half of everything, a far larger frame has gone by, and it goes back
+/// upstream. All functions may be called from any thread. Everything must be freed before the destructor.
 class KeptMemory final : public std::pmr::memory_resource {
  public:
   static constexpr std::size_t kAlignment = 64;
+  static constexpr std::size_t kLargestListed = 4096;
   static constexpr std::size_t kLargestKept = std::size_t{64} << 20;
   /// Allocations from one look to the next: some fifty frames.
   static constexpr std::uint32_t kLookEvery = 1 << 15;
@@ -32,7 +35,7 @@ class KeptMemory final : public std::pmr::memory_resource {
   void give_back();
 
   /// In use and kept, without what goes past the lists.
-  [[nodiscard]] std::size_t held_bytes() const { return held_bytes_; }
+  [[nodiscard]] std::size_t held_bytes() const { return listed_bytes_ + chunks_.held_bytes(); }
 
  private:
   struct Block {
@@ -46,7 +49,7 @@ class KeptMemory final : public std::pmr::memory_resource {
     std::uint32_t least_free = 0;  ///< since the last look
   };
   static constexpr std::size_t kSmallest = 64;
-  static constexpr std::size_t kNumLists = 4 * 20 + 1;
+  static constexpr std::size_t kNumLists = 4 * 6 + 1;
 
   static std::size_t list_of(std::size_t bytes);
   static std::size_t block_bytes(std::size_t list);
@@ -60,8 +63,9 @@ class KeptMemory final : public std::pmr::memory_resource {
   void give_back(std::size_t list, std::uint32_t at_most);
 
   std::pmr::memory_resource* const upstream_;
+  ChunkMemory chunks_;
   std::array<List, kNumLists> lists_;
-  std::atomic<std::size_t> held_bytes_ = 0;
+  std::atomic<std::size_t> listed_bytes_ = 0;
   std::atomic<std::uint32_t> num_allocations_ = 0;
 };
 

@@ -4,6 +4,7 @@
 #pragma once
 #include <cstddef>
 #include <deque>
+#include <memory_resource>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -46,7 +47,7 @@ class Mailbox {
 
  private:
   std::size_t capacity_;
-  std::deque<Item> items_;
+  std::pmr::deque<Item> items_;
 };
 
 }  // namespace graspd

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstring>
 #include <limits>
+#include <memory_resource>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,26 +30,26 @@ std::string got_expected(std::int64_t got, std::int64_t least, std::int64_t most
          std::to_string(most) + ")";
 }
 
-std::optional<Refusal> check_data(const std::string& type, const DepthPixels& p, const FrameHeader& header) {
+std::optional<Refusal> check_data(std::string_view type, const DepthPixels& p, const FrameHeader& header) {
   const auto size = static_cast<std::int64_t>(p.data.size());
   const std::int64_t row = p.width * pixel_bytes(p);
   const std::int64_t whole =
       p.packing == DepthPixels::Packing::kPng ? row * p.height : p.row_stride * p.height;
   if (p.packing != DepthPixels::Packing::kNone) {
     if (whole <= static_cast<std::int64_t>(most_inflated(p.data.size()))) return std::nullopt;
-    return refuse(RefusalReason::kBadSize, type + ".images.size",
+    return refuse(RefusalReason::kBadSize, std::string(type) + ".images.size",
                   "too few bytes for the image (got " + std::to_string(size) + ", expected " +
                       std::to_string(whole) + " bytes compressed)",
                   header);
   }
   const std::int64_t least = whole - p.row_stride + row;  // the last row may end with its last pixel
   if (size >= least && size <= whole) return std::nullopt;
-  return refuse(RefusalReason::kBadSize, type + ".images.size",
+  return refuse(RefusalReason::kBadSize, std::string(type) + ".images.size",
                 "contradicts the other sizes" + got_expected(size, least, whole), header);
 }
 
 /// The bytes of compressed pixels; what is wrong, or nothing.
-std::string decompress(const DepthPixels& p, std::vector<std::byte>& bytes) {
+std::string decompress(const DepthPixels& p, std::pmr::vector<std::byte>& bytes) {
   const auto width = static_cast<std::size_t>(p.width);
   const auto height = static_cast<std::size_t>(p.height);
   if (p.packing == DepthPixels::Packing::kPng) {
@@ -92,24 +93,23 @@ void unproject_pixels(const DepthPixels& p, const CameraIntrinsics& camera, Poin
 
 }  // namespace
 
-std::optional<Refusal> check_depth_pixels(std::string_view type_name, const DepthPixels& pixels,
+std::optional<Refusal> check_depth_pixels(std::string_view type, const DepthPixels& pixels,
                                           const FrameHeader& header, const DecodeLimits& limits) {
-  const std::string type(type_name);
-  const std::string product = std::to_string(pixels.width) + " * " + std::to_string(pixels.height);
+  const auto product = [&] { return std::to_string(pixels.width) + " * " + std::to_string(pixels.height); };
   if (pixels.width < 0 || pixels.height < 0)
-    return refuse(RefusalReason::kBadSize, type + ".images.width, height",
-                  "negative (got " + product + ", expected at least 0)", header);
+    return refuse(RefusalReason::kBadSize, std::string(type) + ".images.width, height",
+                  "negative (got " + product() + ", expected at least 0)", header);
   if (pixels.width == 0 || pixels.height == 0) return std::nullopt;
   if (pixels.width > limits.max_points / pixels.height)
     return refuse(
-        RefusalReason::kTooLarge, type + ".images.width * height",
-        "too many pixels (got " + product + ", expected at most " + std::to_string(limits.max_points) + ")",
+        RefusalReason::kTooLarge, std::string(type) + ".images.width * height",
+        "too many pixels (got " + product() + ", expected at most " + std::to_string(limits.max_points) + ")",
         header);
   const std::int64_t row = pixels.width * pixel_bytes(pixels);
   const std::int64_t longest = 2 * row + 4096;  // more is no padding
   if (pixels.packing != DepthPixels::Packing::kPng &&
       (pixels.row_stride < row || pixels.row_stride > longest))
-    return refuse(RefusalReason::kBadSize, type + ".images.row_stride",
+    return refuse(RefusalReason::kBadSize, std::string(type) + ".images.row_stride",
                   "contradicts the other sizes" + got_expected(pixels.row_stride, row, longest), header);
   return check_data(type, pixels, header);
 }
@@ -117,7 +117,7 @@ std::optional<Refusal> check_depth_pixels(std::string_view type_name, const Dept
 std::variant<Frame, Refusal> decode_depth_pixels(std::string_view type, const DepthPixels& compressed,
                                                  FrameHeader header, const CloudInput& input) {
   DepthPixels pixels = compressed;
-  std::vector<std::byte> bytes;
+  std::pmr::vector<std::byte> bytes;
   const bool has_pixels = pixels.width > 0 && pixels.height > 0;
   if (has_pixels && pixels.packing != DepthPixels::Packing::kNone) {
     if (const std::string problem = decompress(pixels, bytes); !problem.empty())

@@ -21,7 +21,7 @@ constexpr std::array<PackedField, 3> kPackedFloats{
 
 /// The same in all of these types.
 void read_fields(ByteReader& reader, std::int32_t count, const DecodeLimits& limits,
-                 std::vector<PackedField>& fields) {
+                 std::pmr::vector<PackedField>& fields) {
   fields.resize(static_cast<std::size_t>(count));
   for (PackedField& field : fields) {
     field.name = reader.string("fields.name", limits.max_name_length);

@@ -59,7 +59,7 @@ DepthPixels read_bot_core_image(ByteReader& reader, const DecodeLimits& limits) 
 ForeignImage read_images(ByteReader& reader, const DecodeLimits& limits) {
   ForeignImage image;
   image.header = read_images_header(reader, limits);
-  std::vector<std::int16_t> types(
+  std::pmr::vector<std::int16_t> types(
       static_cast<std::size_t>(reader.count("n_images", kMaxImages, kMinBotCoreImageBytes)));
   for (std::int16_t& type : types) type = reader.int16("image_types");
   for (const std::int16_t type : types) {

@@ -45,39 +45,39 @@ std::string field_problem(const PackedField& field, std::int64_t point_step) {
   return {};
 }
 
-std::optional<Refusal> check_coordinates(const std::string& type, const PackedPoints& points) {
+std::optional<Refusal> check_coordinates(std::string_view type, const PackedPoints& points) {
   for (const std::string_view name : kCoordinates) {
-    const std::string place = type + ".fields '" + std::string(name) + "'";
+    const auto place = [&] { return std::string(type) + ".fields '" + std::string(name) + "'"; };
     const PackedField* field = find_field(points, name);
     if (field == nullptr)
-      return refuse(RefusalReason::kMissingField, place, "missing (expected x, y and z)", points.header);
+      return refuse(RefusalReason::kMissingField, place(), "missing (expected x, y and z)", points.header);
     if (const std::string problem = field_problem(*field, points.point_step); !problem.empty())
-      return refuse(RefusalReason::kBadField, place, problem, points.header);
+      return refuse(RefusalReason::kBadField, place(), problem, points.header);
     if (std::count_if(points.fields.begin(), points.fields.end(),
                       [&](const auto& f) { return f.name == name; }) > 1)
-      return refuse(RefusalReason::kBadField, place, "there twice (expected once)", points.header);
+      return refuse(RefusalReason::kBadField, place(), "there twice (expected once)", points.header);
   }
   return std::nullopt;
 }
 
 /// Of a cloud with points. Each product fits: two factors are at most the number of bytes of the data.
-std::optional<Refusal> check_steps(const std::string& type, const PackedPoints& p) {
+std::optional<Refusal> check_steps(std::string_view type, const PackedPoints& p) {
   const auto size = static_cast<std::int64_t>(p.data.size());
   if (p.point_step <= 0 || p.point_step > size)
-    return refuse(RefusalReason::kBadSize, type + ".point_step",
+    return refuse(RefusalReason::kBadSize, std::string(type) + ".point_step",
                   "not the size of a point" + got_expected(p.point_step, "1 to " + std::to_string(size)),
                   p.header);
   const std::int64_t row = p.width * p.point_step;
   const bool one_row = p.height == 1;
   if (!one_row && (p.row_step < row || p.row_step > size))
-    return refuse(RefusalReason::kBadSize, type + ".row_step",
+    return refuse(RefusalReason::kBadSize, std::string(type) + ".row_step",
                   "contradicts the other sizes" +
                       got_expected(p.row_step, std::to_string(row) + " to " + std::to_string(size)),
                   p.header);
   const std::int64_t least = one_row ? row : (p.height - 1) * p.row_step + row;
   const std::int64_t most = one_row ? std::max(row, p.row_step) : p.height * p.row_step;
   if (size >= least && size <= most) return std::nullopt;
-  return refuse(RefusalReason::kBadSize, type + ".data",
+  return refuse(RefusalReason::kBadSize, std::string(type) + ".data",
                 "contradicts the other sizes" +
                     got_expected(size, std::to_string(p.height) + " rows of " + std::to_string(p.width) +
                                            " * " + std::to_string(p.point_step) + " bytes"),
@@ -114,12 +114,12 @@ void copy_row(const std::byte* from, std::size_t point_step, bool big_endian, st
   }
 }
 
-void copy_coordinate(const PackedPoints& p, const Coordinate& c, std::vector<float>& to) {
+void copy_coordinate(const PackedPoints& p, const Coordinate& c, std::span<float> to) {
   const auto width = static_cast<std::size_t>(p.width);
   const auto point_step = static_cast<std::size_t>(p.point_step);
   const std::byte* row = p.data.data() + c.offset;
   for (std::size_t done = 0; done < to.size(); done += width) {
-    const std::span<float> values = std::span(to).subspan(done, width);
+    const std::span<float> values = to.subspan(done, width);
     if (c.is_double)
       copy_row<double>(row, point_step, p.big_endian, values);
     else
@@ -139,24 +139,23 @@ void blank_origin(PointCloud& cloud) {
 
 }  // namespace
 
-std::optional<Refusal> check_packed_points(std::string_view type_name, const PackedPoints& points,
+std::optional<Refusal> check_packed_points(std::string_view type, const PackedPoints& points,
                                            const DecodeLimits& limits) {
-  const std::string type(type_name);
-  const std::string product = std::to_string(points.width) + " * " + std::to_string(points.height);
+  const auto product = [&] { return std::to_string(points.width) + " * " + std::to_string(points.height); };
   if (points.width < 0 || points.height < 0)
-    return refuse(RefusalReason::kBadSize, type + ".width, height",
-                  "negative (got " + product + ", expected at least 0)", points.header);
+    return refuse(RefusalReason::kBadSize, std::string(type) + ".width, height",
+                  "negative (got " + product() + ", expected at least 0)", points.header);
   if (points.width == 0 || points.height == 0) {
     if (points.data.empty()) return std::nullopt;
-    return refuse(RefusalReason::kBadSize, type + ".data",
+    return refuse(RefusalReason::kBadSize, std::string(type) + ".data",
                   "contradicts the other sizes" +
-                      got_expected(static_cast<std::int64_t>(points.data.size()), "none for " + product),
+                      got_expected(static_cast<std::int64_t>(points.data.size()), "none for " + product()),
                   points.header);
   }
   if (points.width > limits.max_points / points.height)
     return refuse(
-        RefusalReason::kTooLarge, type + ".width * height",
-        "too many points (got " + product + ", expected at most " + std::to_string(limits.max_points) + ")",
+        RefusalReason::kTooLarge, std::string(type) + ".width * height",
+        "too many points (got " + product() + ", expected at most " + std::to_string(limits.max_points) + ")",
         points.header);
   auto refusal = check_steps(type, points);
   if (!refusal) refusal = check_coordinates(type, points);

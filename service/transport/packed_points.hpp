@@ -4,6 +4,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <memory_resource>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -28,7 +29,7 @@ struct PackedPoints {
   FrameHeader header;
   std::int64_t width = 0;
   std::int64_t height = 0;
-  std::vector<PackedField> fields;
+  std::pmr::vector<PackedField> fields;
   bool big_endian = false;
   std::int64_t point_step = 0;  ///< [bytes]
   std::int64_t row_step = 0;    ///< [bytes]; of a single row it says nothing

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <memory_resource>
 #include <vector>
 
 #include "service/transport/decoding.hpp"
@@ -34,7 +35,7 @@ struct Members {
   std::array<double, 3> viewpoint{};
   std::int32_t width = 0;
   std::int32_t height = 0;
-  std::vector<Field> fields;
+  std::pmr::vector<Field> fields;
   std::int32_t point_step = 0;
   std::int32_t data_size = 0;
 };
@@ -75,29 +76,30 @@ std::string field_problem(const Field& field, std::int32_t point_step) {
 std::optional<Refusal> check_fields(const Members& m) {
   for (std::size_t i = 0; i < m.fields.size(); ++i) {
     const Field& field = m.fields[i];
-    const std::string place =
-        "point_cloud_t.fields[" + std::to_string(i) + "] '" + printable(field.name) + "'";
     std::string problem = field_problem(field, m.point_step);
     for (std::size_t j = 0; j < i && problem.empty(); ++j) {
       if (m.fields[j].name == field.name) problem = "there already (expected each name once)";
     }
-    if (!problem.empty()) return refuse(RefusalReason::kBadField, place, problem, m.header);
+    if (problem.empty()) continue;
+    return refuse(RefusalReason::kBadField,
+                  "point_cloud_t.fields[" + std::to_string(i) + "] '" + printable(field.name) + "'", problem,
+                  m.header);
   }
   return std::nullopt;
 }
 
 std::optional<Refusal> find_coordinates(const Members& m, Offsets& offsets) {
   for (std::size_t axis = 0; axis < kCoordinates.size(); ++axis) {
-    const std::string place = "point_cloud_t.fields '" + std::string(kCoordinates[axis]) + "'";
+    const auto place = [axis] { return "point_cloud_t.fields '" + std::string(kCoordinates[axis]) + "'"; };
     const Field* found = nullptr;
     for (const Field& field : m.fields) {
       if (field.name == kCoordinates[axis]) found = &field;
     }
     if (found == nullptr) {
-      return refuse(RefusalReason::kMissingField, place, "missing (expected x, y and z)", m.header);
+      return refuse(RefusalReason::kMissingField, place(), "missing (expected x, y and z)", m.header);
     }
     if (found->datatype != kFloat32) {
-      return refuse(RefusalReason::kBadField, place,
+      return refuse(RefusalReason::kBadField, place(),
                     "wrong datatype (got " + std::to_string(found->datatype) + ", expected 7, FLOAT32)",
                     m.header);
     }

@@ -3,6 +3,7 @@
 // Pixels of a depth image -> points in the optical frame: x right, y down, z forward.
 #pragma once
 #include <cstddef>
+#include <memory_resource>
 #include <span>
 #include <vector>
 
@@ -19,7 +20,7 @@ void unproject(std::span<const std::byte> data, std::size_t row_stride, const Ca
                const DepthOf& depth_of, PointCloud& cloud) {
   const auto width = static_cast<std::size_t>(cloud.width);
   const auto height = static_cast<std::size_t>(cloud.height);
-  std::vector<float> column(width);
+  std::pmr::vector<float> column(width);
   for (std::size_t u = 0; u < width; ++u)
     column[u] = static_cast<float>((static_cast<double>(u) - camera.cx_px) / camera.fx_px);
   for (std::size_t v = 0; v < height; ++v) {

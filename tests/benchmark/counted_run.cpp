@@ -10,6 +10,7 @@
 #include "client/bench/bench_clouds.hpp"
 #include "client/bench/measure.hpp"
 #include "service/pipeline/point_kernels.hpp"
+#include "service/runtime/kept_memory.hpp"
 
 namespace graspd {
 namespace {
@@ -52,6 +53,7 @@ void run_counted(const Work& work) {
 
 int main() {
   using namespace graspd;
+  keep_memory();  // as the daemon does
   ThreadLimit one_thread(1);
   std::printf("kernels %s\n", avx2_kernels() ? "avx2" : "portable");
   std::printf("compiler %s\n", __VERSION__);

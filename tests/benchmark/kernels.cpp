@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <memory_resource>
 #include <random>
 #include <string>
 #include <vector>
@@ -18,11 +19,11 @@ constexpr std::size_t kNumPoints = 4096;  // 64 KB with their indices: what a co
 
 /// Points all over a cube of 20 cm, and a band of them.
 struct Block {
-  std::vector<float> x, y, z;
-  std::vector<std::uint32_t> index;
-  std::vector<std::int32_t> object, own, bins;
-  std::vector<float> a, f, depth;
-  std::vector<std::uint32_t> out;
+  std::pmr::vector<float> x, y, z;
+  std::pmr::vector<std::uint32_t> index;
+  std::pmr::vector<std::int32_t> object, own, bins;
+  std::pmr::vector<float> a, f, depth;
+  std::pmr::vector<std::uint32_t> out;
 
   Block() {
     constexpr std::size_t room = kNumPoints + kPointPadding;

@@ -43,7 +43,7 @@ OWN = {
     # graspd-replay answers a frame by the daemon's own code; it and graspd-bench keep memory as the daemon does.
     "client": {"lcmtypes", "service/transport", "service/pipeline", "service/config",
                "service/daemon/answer.hpp", "service/daemon/frame_processor.hpp", "service/runtime/clock.hpp",
-               "service/runtime/freed_memory.hpp"},
+               "service/runtime/kept_memory.hpp"},
     "tests": {"lcmtypes", "service/config", "service/transport", "service/runtime", "service/pipeline",
               "service/daemon", "client"},
 }

@@ -79,7 +79,7 @@ PointCloud joined(const PointCloud& a, const PointCloud& b) {
 }
 
 PointCloud shuffled(const PointCloud& cloud, std::uint32_t seed) {
-  std::vector<std::size_t> order(cloud.size());
+  std::pmr::vector<std::size_t> order(cloud.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::shuffle(order.begin(), order.end(), std::mt19937(seed));
   PointCloud result;

@@ -9,13 +9,13 @@
 
 namespace graspd {
 
-std::vector<std::int32_t> grow_by_queue(const Normals& normals, const Neighborhoods& neighborhoods,
-                                        const std::vector<std::uint8_t>& is_edge,
-                                        const SmoothnessConfig& config,
-                                        const std::vector<std::uint32_t>& seeds) {
+std::pmr::vector<std::int32_t> grow_by_queue(const Normals& normals, const Neighborhoods& neighborhoods,
+                                             const std::pmr::vector<std::uint8_t>& is_edge,
+                                             const SmoothnessConfig& config,
+                                             const std::pmr::vector<std::uint32_t>& seeds) {
   const float low = std::cos(config.theta_low_deg * std::numbers::pi_v<float> / 180);
   const float high = std::cos(config.theta_high_deg * std::numbers::pi_v<float> / 180);
-  std::vector<std::int32_t> label(normals.size(), -1);
+  std::pmr::vector<std::int32_t> label(normals.size(), -1);
   std::int32_t num_labels = 0;
   for (const std::uint32_t first : seeds) {
     if (label[first] >= 0) continue;
@@ -35,7 +35,7 @@ std::vector<std::int32_t> grow_by_queue(const Normals& normals, const Neighborho
   return label;
 }
 
-double agreement(const std::vector<std::int32_t>& a, const std::vector<std::int32_t>& b) {
+double agreement(const std::pmr::vector<std::int32_t>& a, const std::pmr::vector<std::int32_t>& b) {
   std::map<std::int32_t, std::map<std::int32_t, int>> of_a, of_b;
   int total = 0, agreed = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {

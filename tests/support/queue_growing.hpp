@@ -4,6 +4,7 @@
 // order of the points. The oracle of the order-free form in service/pipeline.
 #pragma once
 #include <cstdint>
+#include <memory_resource>
 #include <vector>
 
 #include "service/pipeline/edge_points.hpp"
@@ -11,14 +12,15 @@
 namespace graspd {
 
 /// Label of each point. Seeds are taken in the order given (a permutation of all points).
-[[nodiscard]] std::vector<std::int32_t> grow_by_queue(const Normals& normals,
-                                                      const Neighborhoods& neighborhoods,
-                                                      const std::vector<std::uint8_t>& is_edge,
-                                                      const SmoothnessConfig& config,
-                                                      const std::vector<std::uint32_t>& seeds);
+[[nodiscard]] std::pmr::vector<std::int32_t> grow_by_queue(const Normals& normals,
+                                                           const Neighborhoods& neighborhoods,
+                                                           const std::pmr::vector<std::uint8_t>& is_edge,
+                                                           const SmoothnessConfig& config,
+                                                           const std::pmr::vector<std::uint32_t>& seeds);
 
 /// Share of the points that two labellings agree on: those in pairs of labels that are each other's largest
 /// overlap. Points with a negative label in either do not count.
-[[nodiscard]] double agreement(const std::vector<std::int32_t>& a, const std::vector<std::int32_t>& b);
+[[nodiscard]] double agreement(const std::pmr::vector<std::int32_t>& a,
+                               const std::pmr::vector<std::int32_t>& b);
 
 }  // namespace graspd

@@ -21,9 +21,9 @@ SimulationConfig small_simulation(const std::string& kind) {
 }
 
 /// The poses of the search, as a detector that knows everything would publish them.
-std::vector<Handle> perfect_handles(const TrueFrame& truth) {
+std::pmr::vector<Handle> perfect_handles(const TrueFrame& truth) {
   const SolidJudge judge(truth.scene, Gripper{});
-  std::vector<Handle> handles;
+  std::pmr::vector<Handle> handles;
   for (const GraspableSolid& object : graspable_solids(judge, truth.ideal, truth.T_world_camera)) {
     if (!object.graspable) continue;
     for (const Handle& pose : object.poses)
@@ -66,7 +66,7 @@ TEST(JudgedScene, WhatTheSearchFindsIsJudgedToHold) {
 
 TEST(JudgedScene, TellsWhatFailsAndWhatIsMissed) {
   const auto spoilt = [](const TrueFrame& truth) {
-    std::vector<Handle> handles = perfect_handles(truth);
+    std::pmr::vector<Handle> handles = perfect_handles(truth);
     handles.resize(1);
     handles.push_back(handles.front());
     handles.back().width_m = 0;  // The fingers go into the object.

@@ -48,7 +48,7 @@ TEST(PoseStability, FollowsTheBestHandleOfEachObject) {
       handle.position.x() += aside_m;
       return handle;
     };
-    std::vector<Handle> list{at(1, 0.002f * static_cast<float>(truth.seq)), at(1, 0.02f)};
+    std::pmr::vector<Handle> list{at(1, 0.002f * static_cast<float>(truth.seq)), at(1, 0.02f)};
     if (truth.seq % 2 == 0) list.push_back(at(2, 0));
     return list;
   };

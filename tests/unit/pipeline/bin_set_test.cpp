@@ -5,13 +5,14 @@
 
 #include <gtest/gtest.h>
 
+#include <memory_resource>
 #include <random>
 #include <vector>
 
 namespace graspd {
 namespace {
 
-using Flags = std::vector<std::uint8_t>;
+using Flags = std::pmr::vector<std::uint8_t>;
 
 Flags random_flags(std::size_t size, double share, std::uint32_t seed) {
   std::mt19937 random(seed);

@@ -17,7 +17,7 @@ void expect_sorted_and_complete(const PointCloud& cloud, const CellOrder& order)
   ASSERT_EQ(order.starts.size(), order.num_cells() + 1);
   EXPECT_EQ(order.starts.front(), 0u);
   EXPECT_EQ(order.starts.back(), cloud.size());
-  std::vector<std::uint8_t> seen(cloud.size());
+  std::pmr::vector<std::uint8_t> seen(cloud.size());
   for (std::size_t c = 0; c < order.num_cells(); ++c) {
     if (c > 0) {
       EXPECT_LT(order.keys[c - 1], order.keys[c]);

@@ -14,8 +14,8 @@ namespace {
 
 constexpr float kCell = 0.015f;  // of the grid for box queries [m]
 
-std::vector<std::int32_t> objects_of_points(const Surfaces& surfaces) {
-  std::vector<std::int32_t> objects;
+std::pmr::vector<std::int32_t> objects_of_points(const Surfaces& surfaces) {
+  std::pmr::vector<std::int32_t> objects;
   for (const std::uint32_t voxel : surfaces.voxel_of_point)
     objects.push_back(surfaces.objects.of_point[voxel]);
   return objects;
@@ -81,8 +81,8 @@ std::array<Contact, 2> CheckScene::contacts(const Candidate& candidate, const Gr
   query_.find(candidate.position, candidate.rotation,
               {-half_e, -gripper.aperture_m, l - gripper.finger_length_m}, {half_e, gripper.aperture_m, l},
               local);
-  std::vector<std::uint32_t> between;
-  std::vector<Eigen::Vector2f> profile;
+  std::pmr::vector<std::uint32_t> between;
+  std::pmr::vector<Eigen::Vector2f> profile;
   float low = 1, high = -1, top = 1;
   for (std::uint32_t k = 0; k < local.size(); ++k) {
     if (object_of_point_[local.index[k]] != candidate.object) continue;

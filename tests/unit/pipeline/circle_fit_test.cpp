@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory_resource>
 #include <numbers>
 #include <random>
 #include <vector>
@@ -12,7 +13,7 @@
 namespace graspd {
 namespace {
 
-using Points = std::vector<Eigen::Vector2f>;
+using Points = std::pmr::vector<Eigen::Vector2f>;
 
 constexpr float kAnyRadius = 0.06f;
 constexpr float kDegree = std::numbers::pi_v<float> / 180;

@@ -15,8 +15,8 @@ namespace {
 
 constexpr float kLeaf = 0.006f;
 
-std::vector<std::uint8_t> every(std::size_t step, std::size_t n) {
-  std::vector<std::uint8_t> wanted(n);
+std::pmr::vector<std::uint8_t> every(std::size_t step, std::size_t n) {
+  std::pmr::vector<std::uint8_t> wanted(n);
   for (std::size_t i = 0; i < n; i += step) wanted[i] = 1;
   return wanted;
 }
@@ -29,7 +29,7 @@ TEST(CoarseSurface, PreparesTheSameAsForAllPoints) {
   const Normals normals = estimate_normals(voxels, neighborhoods);
   ASSERT_EQ(coarse.size(), voxels.size());
   for (const std::size_t step : {std::size_t{22}, std::size_t{3}, std::size_t{1}}) {
-    const std::vector<std::uint8_t> wanted = every(step, coarse.size());
+    const std::pmr::vector<std::uint8_t> wanted = every(step, coarse.size());
     EXPECT_FALSE(coarse.has(wanted));
     coarse.prepare(wanted);
     EXPECT_TRUE(coarse.has(wanted));

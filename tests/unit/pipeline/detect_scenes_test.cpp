@@ -30,7 +30,7 @@ struct Detected {
     for (const HandleTruth& t : truth) n += t.solid == solid ? 1 : 0;
     return n;
   }
-  [[nodiscard]] const std::vector<Handle>& handles() const { return detection.handles; }
+  [[nodiscard]] const std::pmr::vector<Handle>& handles() const { return detection.handles; }
 };
 
 Detected detect(const AnalyticScene& scene, const Gripper& gripper = {}) {

@@ -49,7 +49,7 @@ GripDifference difference(const Handle& a, const Handle& b) {
           std::abs(a.width_m - b.width_m)};
 }
 
-double share_found(const std::vector<Handle>& a, const std::vector<Handle>& b,
+double share_found(const std::pmr::vector<Handle>& a, const std::pmr::vector<Handle>& b,
                    const GripDifference& tolerance) {
   const auto found = [&](const Handle& handle) {
     return std::any_of(b.begin(), b.end(), [&](const Handle& other) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Comparing detections: the same bits, or the same grips up to a tolerance.
 #pragma once
+#include <memory_resource>
 #include <vector>
 
 #include "service/pipeline/detect_handles.hpp"
@@ -19,7 +20,7 @@ struct GripDifference {
 [[nodiscard]] GripDifference difference(const Handle& a, const Handle& b);
 
 /// Share of the handles of a that have one in b within the tolerance; 1 when a has none.
-[[nodiscard]] double share_found(const std::vector<Handle>& a, const std::vector<Handle>& b,
+[[nodiscard]] double share_found(const std::pmr::vector<Handle>& a, const std::pmr::vector<Handle>& b,
                                  const GripDifference& tolerance);
 
 }  // namespace graspd

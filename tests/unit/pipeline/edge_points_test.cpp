@@ -44,7 +44,7 @@ Count count_above(const Normals& normals, std::span<const std::uint32_t> neighbo
 void expect_definition(const PointCloud& cloud, const SmoothnessConfig& config) {
   const Neighborhoods neighborhoods = find_neighborhoods(cloud, {0.009f});
   const Normals normals = estimate_normals(cloud, neighborhoods);
-  const std::vector<std::uint8_t> is_edge = find_edge_points(normals, neighborhoods, config);
+  const std::pmr::vector<std::uint8_t> is_edge = find_edge_points(normals, neighborhoods, config);
   ASSERT_EQ(is_edge.size(), cloud.size());
   std::size_t compared = 0;
   for (std::size_t s = 0; s < cloud.size(); ++s) {

@@ -23,10 +23,10 @@ RankedHandle handle_at(float x, float score, int object = 0, int id = 0) {
 }
 
 TEST(HandleRankingSpread, PlacesSpreadOverALongObject) {
-  std::vector<RankedHandle> handles;
+  std::pmr::vector<RankedHandle> handles;
   for (int i = 0; i <= 60; ++i) handles.push_back(handle_at(0.005f * static_cast<float>(i), 0.9f));
   const HandleRankingConfig config;
-  const std::vector<Handle> ranked = rank_handles(handles, config);
+  const std::pmr::vector<Handle> ranked = rank_handles(handles, config);
   ASSERT_EQ(static_cast<int>(ranked.size()), config.max_per_object);
   for (std::size_t a = 0; a < ranked.size(); ++a)
     for (std::size_t b = 0; b < a; ++b)
@@ -36,14 +36,14 @@ TEST(HandleRankingSpread, PlacesSpreadOverALongObject) {
 TEST(HandleRankingSpread, APlaceElsewhereBeatsASlightlyBetterOneNextToTheBest) {
   HandleRankingConfig config;
   config.max_per_object = 2;
-  const std::vector<RankedHandle> handles{handle_at(0, 0.9f), handle_at(0.025f, 0.89f),
-                                          handle_at(0.2f, 0.8f)};
-  const std::vector<Handle> far = rank_handles(handles, config);
+  const std::pmr::vector<RankedHandle> handles{handle_at(0, 0.9f), handle_at(0.025f, 0.89f),
+                                               handle_at(0.2f, 0.8f)};
+  const std::pmr::vector<Handle> far = rank_handles(handles, config);
   ASSERT_EQ(far.size(), 2u);
   EXPECT_EQ(far[0].score, 0.9f);
   EXPECT_EQ(far[1].score, 0.8f);
   config.spread_m = 0.002f;
-  const std::vector<Handle> near = rank_handles(handles, config);
+  const std::pmr::vector<Handle> near = rank_handles(handles, config);
   ASSERT_EQ(near.size(), 2u);
   EXPECT_EQ(near[1].score, 0.89f) << "with a short spread the score decides";
 }
@@ -52,7 +52,7 @@ TEST(HandleRankingSpread, APlaceElsewhereThatIsMuchWorseDoesNotWin) {
   HandleRankingConfig config;
   config.max_per_object = 2;
   config.min_further_score = 0;
-  const std::vector<Handle> ranked =
+  const std::pmr::vector<Handle> ranked =
       rank_handles({handle_at(0, 0.9f), handle_at(0.05f, 0.85f), handle_at(0.3f, 0.1f)}, config);
   ASSERT_EQ(ranked.size(), 2u);
   EXPECT_EQ(ranked[1].score, 0.85f);
@@ -75,7 +75,7 @@ TEST(HandleRankingSpread, TheBestOfEveryObjectStays) {
   std::mt19937 random(5);
   std::uniform_real_distribution<float> unit(0, 1);
   HandleRankingConfig config;
-  std::vector<RankedHandle> handles;
+  std::pmr::vector<RankedHandle> handles;
   std::map<int, float> best;
   for (int i = 0; i < 300; ++i) {
     const int object = i % 20;
@@ -95,13 +95,13 @@ TEST(HandleRankingSpread, TheBestOfEveryObjectStays) {
 TEST(HandleRankingSpread, TiesStayInOrder) {
   HandleRankingConfig config;
   config.max_per_object = 1;
-  const std::vector<Handle> one = rank_handles(
+  const std::pmr::vector<Handle> one = rank_handles(
       {handle_at(0, 0.7f, 0, 10), handle_at(0.1f, 0.7f, 0, 11), handle_at(0.2f, 0.7f, 0, 12)}, config);
   ASSERT_EQ(one.size(), 1u);
   EXPECT_EQ(one[0].segment, 10);
   config.max_per_object = 3;
   // Both of the others are as far from the first.
-  const std::vector<Handle> all = rank_handles(
+  const std::pmr::vector<Handle> all = rank_handles(
       {handle_at(0, 0.7f, 0, 10), handle_at(0.1f, 0.7f, 0, 11), handle_at(-0.1f, 0.7f, 0, 12)}, config);
   ASSERT_EQ(all.size(), 3u);
   for (int i = 0; i < 3; ++i) EXPECT_EQ(all[static_cast<std::size_t>(i)].segment, 10 + i);
@@ -111,10 +111,10 @@ TEST(HandleRankingSpread, NothingIsChosenTwice) {
   HandleRankingConfig config;
   config.distinct_distance_m = 0;
   config.max_per_object = 10;
-  std::vector<RankedHandle> handles;
+  std::pmr::vector<RankedHandle> handles;
   for (int i = 0; i < 6; ++i) handles.push_back(handle_at(i < 3 ? 0.0f : 0.1f, 0.8f, i % 2, i));
   std::set<int> ids;
-  const std::vector<Handle> ranked = rank_handles(handles, config);
+  const std::pmr::vector<Handle> ranked = rank_handles(handles, config);
   for (const Handle& handle : ranked) EXPECT_TRUE(ids.insert(handle.segment).second) << handle.segment;
   EXPECT_EQ(ranked.size(), handles.size());
 }
@@ -122,7 +122,7 @@ TEST(HandleRankingSpread, NothingIsChosenTwice) {
 TEST(HandleRankingSpread, APlaceIsTakenOnceByWhicheverObject) {
   RankedHandle same = handle_at(0, 0.6f, 1);
   same.handle.position.y() = 0;
-  const std::vector<Handle> ranked = rank_handles({handle_at(0, 0.8f, 0), same}, {});
+  const std::pmr::vector<Handle> ranked = rank_handles({handle_at(0, 0.8f, 0), same}, {});
   ASSERT_EQ(ranked.size(), 1u);
   EXPECT_EQ(ranked[0].score, 0.8f);
 }

@@ -38,12 +38,12 @@ TEST(HandleRanking, Nothing) {
 }
 
 TEST(HandleRanking, BestFirstAndTiesInOrder) {
-  std::vector<RankedHandle> handles;
+  std::pmr::vector<RankedHandle> handles;
   for (int i = 0; i < 30; ++i) {
     handles.push_back(handle_at({static_cast<float>(i), 0, 0}, 0.1f * static_cast<float>((7 * i) % 10), i));
     handles.back().handle.segment = i;
   }
-  const std::vector<Handle> ranked = rank_handles(handles, unlimited());
+  const std::pmr::vector<Handle> ranked = rank_handles(handles, unlimited());
   ASSERT_EQ(ranked.size(), 30u);
   for (std::size_t k = 1; k < ranked.size(); ++k) {
     EXPECT_GE(ranked[k - 1].score, ranked[k].score);
@@ -67,7 +67,7 @@ TEST(HandleRanking, OneHandleAPlace) {
 }
 
 TEST(HandleRanking, TheBestOfAPlaceStays) {
-  const std::vector<Handle> ranked = rank_handles(
+  const std::pmr::vector<Handle> ranked = rank_handles(
       {handle_at({0, 0, 0}, 0.2f), handle_at({0.01f, 0, 0}, 0.8f), handle_at({0.015f, 0, 0}, 0.5f)},
       unlimited());
   ASSERT_EQ(ranked.size(), 1u);
@@ -88,7 +88,7 @@ TEST(HandleRanking, HalfATurnAboutTheApproachIsTheSameGrip) {
 }
 
 TEST(HandleRanking, LimitsPerObjectAndInAll) {
-  std::vector<RankedHandle> handles;
+  std::pmr::vector<RankedHandle> handles;
   for (int object = 0; object < 4; ++object)
     for (int i = 0; i < 5; ++i)
       handles.push_back(handle_at({static_cast<float>(object), static_cast<float>(i), 0},
@@ -101,7 +101,7 @@ TEST(HandleRanking, LimitsPerObjectAndInAll) {
     ++per_object[static_cast<int>(handle.position.x())];
   EXPECT_EQ(per_object, (std::map<int, int>{{0, 2}, {1, 2}, {2, 2}, {3, 2}}));
   config.max_handles = 3;
-  const std::vector<Handle> three = rank_handles(handles, config);
+  const std::pmr::vector<Handle> three = rank_handles(handles, config);
   ASSERT_EQ(three.size(), 3u);
   // Whatever the order of the places, what stays are the best: nothing that was left out beats the first.
   EXPECT_EQ(three[0].score, 1);
@@ -110,7 +110,7 @@ TEST(HandleRanking, LimitsPerObjectAndInAll) {
 TEST(HandleRanking, TheLeastScoreBelongsToTheList) {
   HandleRankingConfig config = unlimited();
   config.min_score = 0.5f;
-  const std::vector<Handle> ranked = rank_handles(
+  const std::pmr::vector<Handle> ranked = rank_handles(
       {handle_at({0, 0, 0}, 0.5f), handle_at({1, 0, 0}, 0.499f), handle_at({2, 0, 0}, 0.9f)}, config);
   ASSERT_EQ(ranked.size(), 2u);
   EXPECT_EQ(ranked[1].score, 0.5f);
@@ -119,12 +119,12 @@ TEST(HandleRanking, TheLeastScoreBelongsToTheList) {
 TEST(HandleRanking, NoTwoOfALongListAreOnePlace) {
   std::mt19937 random(1);
   std::uniform_real_distribution<float> unit(0, 1);
-  std::vector<RankedHandle> handles;
+  std::pmr::vector<RankedHandle> handles;
   for (int i = 0; i < 400; ++i) {
     const Eigen::Vector3f p(0.1f * unit(random), 0.1f * unit(random), 0.1f * unit(random));
     handles.push_back(handle_at(p, unit(random), 0, turned(360 * unit(random), Eigen::Vector3f::UnitZ())));
   }
-  const std::vector<Handle> ranked = rank_handles(handles, unlimited());
+  const std::pmr::vector<Handle> ranked = rank_handles(handles, unlimited());
   EXPECT_GT(ranked.size(), 20u);
   for (std::size_t a = 0; a < ranked.size(); ++a)
     for (std::size_t b = 0; b < a; ++b) {

@@ -98,7 +98,7 @@ TEST(ImageBlocks, WallsAlongTheLineOfSightKeepTheirPoints) {
                                         [](int u, int) { return 0.3f + 0.01f * static_cast<float>(u); });
   const Downsampled blocks = thin(kept);
   expect_means_of_near_points(kept.cloud, blocks);
-  std::vector<float> depths(blocks.cloud.z.begin(), blocks.cloud.z.end());
+  std::pmr::vector<float> depths(blocks.cloud.z.begin(), blocks.cloud.z.end());
   std::sort(depths.begin(), depths.end());
   EXPECT_EQ(std::unique(depths.begin(), depths.end(), [](float a, float b) { return b - a < 0.005f; }) -
                 depths.begin(),

@@ -11,8 +11,8 @@
 namespace graspd {
 namespace {
 
-std::vector<std::uint32_t> brute_force(const PointCloud& cloud, std::size_t s, float radius_m) {
-  std::vector<std::uint32_t> found;
+std::pmr::vector<std::uint32_t> brute_force(const PointCloud& cloud, std::size_t s, float radius_m) {
+  std::pmr::vector<std::uint32_t> found;
   for (std::uint32_t i = 0; i < cloud.size(); ++i) {
     const float dx = cloud.x[i] - cloud.x[s], dy = cloud.y[i] - cloud.y[s], dz = cloud.z[i] - cloud.z[s];
     if (dx * dx + dy * dy + dz * dz <= radius_m * radius_m) found.push_back(i);
@@ -25,7 +25,7 @@ void expect_brute_force(const PointCloud& cloud, float radius_m) {
   ASSERT_EQ(neighborhoods.size(), cloud.size());
   for (std::size_t s = 0; s < cloud.size(); ++s) {
     const auto list = neighborhoods.of(s);
-    std::vector<std::uint32_t> sorted(list.begin(), list.end());
+    std::pmr::vector<std::uint32_t> sorted(list.begin(), list.end());
     std::sort(sorted.begin(), sorted.end());
     ASSERT_EQ(sorted, brute_force(cloud, s, radius_m))
         << "point " << s << " at " << cloud.point(s).transpose();
@@ -84,7 +84,7 @@ TEST(Neighborhoods, PointsOnCellBorders) {
 
 TEST(Neighborhoods, SkippedPointsHaveNoneButAreNeighbours) {
   const PointCloud cloud = random_cloud(1500, {-0.05f, -0.04f, -0.03f}, {0.05f, 0.04f, 0.03f}, 12);
-  std::vector<std::uint8_t> skip(cloud.size());
+  std::pmr::vector<std::uint8_t> skip(cloud.size());
   for (std::size_t i = 0; i < skip.size(); ++i) skip[i] = cloud.z[i] < -0.005f || i % 7 == 0 ? 1 : 0;
   const Neighborhoods all = find_neighborhoods(cloud, {0.009f}),
                       some = find_neighborhoods(cloud, {0.009f}, skip);
@@ -96,7 +96,8 @@ TEST(Neighborhoods, SkippedPointsHaveNoneButAreNeighbours) {
     else
       EXPECT_TRUE(std::equal(expected.begin(), expected.end(), found.begin(), found.end())) << "point " << s;
   }
-  const Neighborhoods none = find_neighborhoods(cloud, {0.009f}, std::vector<std::uint8_t>(cloud.size(), 1));
+  const Neighborhoods none =
+      find_neighborhoods(cloud, {0.009f}, std::pmr::vector<std::uint8_t>(cloud.size(), 1));
   for (std::size_t s = 0; s < cloud.size(); ++s) EXPECT_TRUE(none.of(s).empty());
 }
 

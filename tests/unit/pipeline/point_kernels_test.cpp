@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory_resource>
 #include <numeric>
 #include <random>
 #include <vector>
@@ -31,8 +32,8 @@ std::vector<Form> forms() {
 }
 
 struct Points {
-  std::vector<float> x, y, z;
-  std::vector<std::uint32_t> index;
+  std::pmr::vector<float> x, y, z;
+  std::pmr::vector<std::uint32_t> index;
   std::size_t size;
 
   explicit Points(std::size_t n, std::uint32_t seed = 1)
@@ -40,7 +41,7 @@ struct Points {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> unit(-1, 1);
     // The padding holds points too, all of them inside: whoever counts it is found out.
-    for (std::vector<float>* v : {&x, &y, &z})
+    for (std::pmr::vector<float>* v : {&x, &y, &z})
       for (std::size_t i = 0; i < n; ++i) (*v)[i] = unit(random);
     std::iota(index.begin(), index.end(), 1000u);
   }
@@ -66,19 +67,19 @@ BoxTest tilted_box() {
 }
 
 struct Kept {
-  std::vector<float> a, f, z;
-  std::vector<std::uint32_t> index;
+  std::pmr::vector<float> a, f, z;
+  std::pmr::vector<std::uint32_t> index;
   bool operator==(const Kept&) const = default;
 };
 
 Kept keep_inside(const PointKernels& kernels, const BoxTest& box, const Points& points) {
   const std::size_t room = points.size + kPointPadding;
-  Kept kept{std::vector<float>(room), std::vector<float>(room), std::vector<float>(room),
-            std::vector<std::uint32_t>(room + 1, kUntouched)};
+  Kept kept{std::pmr::vector<float>(room), std::pmr::vector<float>(room), std::pmr::vector<float>(room),
+            std::pmr::vector<std::uint32_t>(room + 1, kUntouched)};
   const std::size_t n = kernels.keep_inside(box, points.range(), points.spans(),
                                             {kept.a.data(), kept.f.data(), kept.z.data(), kept.index.data()});
   EXPECT_EQ(kept.index.back(), kUntouched) << "writes beyond the room that is asked for";
-  for (std::vector<float>* v : {&kept.a, &kept.f, &kept.z}) v->resize(n);
+  for (std::pmr::vector<float>* v : {&kept.a, &kept.f, &kept.z}) v->resize(n);
   kept.index.resize(n);
   return kept;
 }
@@ -115,15 +116,15 @@ TEST(PointKernels, OnlyTheSpansCountAndOnlyUntilThereAreEnough) {
   const BoxTest box = tilted_box();
   const Points points(200, 9);
   const std::vector<PointSpan> spans{{3, 20}, {50, 59}, {100, 200}};
-  std::vector<std::uint32_t> expected;
+  std::pmr::vector<std::uint32_t> expected;
   const Kept all = keep_inside(portable_kernels(), box, points);
   for (const std::uint32_t index : all.index)
     for (const PointSpan& span : spans)
       if (index - 1000 >= span.begin && index - 1000 < span.end) expected.push_back(index);
   ASSERT_GT(expected.size(), 5u);
   for (const Form& form : forms()) {
-    Kept kept{std::vector<float>(209), std::vector<float>(209), std::vector<float>(209),
-              std::vector<std::uint32_t>(209)};
+    Kept kept{std::pmr::vector<float>(209), std::pmr::vector<float>(209), std::pmr::vector<float>(209),
+              std::pmr::vector<std::uint32_t>(209)};
     kept.index.resize(form.kernels->keep_inside(
         box, points.range(), spans, {kept.a.data(), kept.f.data(), kept.z.data(), kept.index.data()}));
     EXPECT_EQ(kept.index, expected) << form.name;
@@ -139,7 +140,7 @@ TEST(PointKernels, MeetRowsWhereAllPairsOfPlanesLeaveSomething) {
   std::uniform_real_distribution<float> unit(-1, 1);
   constexpr float kCell = 0.02f;
   for (const std::size_t size : {0, 1, 8, 30}) {
-    std::vector<std::int32_t> y(size + kPointPadding), x(y), num_cells(y);
+    std::pmr::vector<std::int32_t> y(size + kPointPadding), x(y), num_cells(y);
     for (std::size_t i = 0; i < size; ++i) {
       y[i] = static_cast<std::int32_t>(i) - 15;
       x[i] = static_cast<std::int32_t>(20 * unit(random));
@@ -153,7 +154,7 @@ TEST(PointKernels, MeetRowsWhereAllPairsOfPlanesLeaveSomething) {
       limits.most[k] = 0.2f + 0.1f * unit(random);
     }
     for (const Form& form : forms()) {
-      std::vector<std::int32_t> from(size + kPointPadding + 1, -7), to(from);
+      std::pmr::vector<std::int32_t> from(size + kPointPadding + 1, -7), to(from);
       form.kernels->meet_rows(limits, {y.data(), x.data(), num_cells.data(), size}, from.data(), to.data());
       EXPECT_EQ(from.back(), -7) << "writes beyond the room that is asked for";
       for (std::size_t i = 0; i < size; ++i) {
@@ -211,14 +212,14 @@ TEST(PointKernels, KeepWhatIsNear) {
   for (const std::size_t size : {0, 1, 8, 15, 500}) {
     const Points points(size, 2);
     const float p[3] = {0.1f, -0.2f, 0.3f};
-    std::vector<std::uint32_t> expected;
+    std::pmr::vector<std::uint32_t> expected;
     for (std::size_t i = 0; i < size; ++i) {
       const double d =
           std::hypot(double{points.x[i]} - 0.1, double{points.y[i]} + 0.2, double{points.z[i]} - 0.3);
       if (d * d <= 0.5) expected.push_back(points.index[i]);
     }
     for (const Form& form : forms()) {
-      std::vector<std::uint32_t> near(size + kPointPadding + 1, kUntouched);
+      std::pmr::vector<std::uint32_t> near(size + kPointPadding + 1, kUntouched);
       const std::size_t n = form.kernels->keep_near(p, 0.5f, points.range(), near.data());
       EXPECT_EQ(near.back(), kUntouched);
       near.resize(n);
@@ -233,7 +234,7 @@ TEST(PointKernels, NumberCellsAlsoBelowZero) {
     Points points(size, 3);
     points.x[0] = -0.05f;  // a cell's face: floor, not truncation
     for (const Form& form : forms()) {
-      std::vector<std::uint32_t> cells(size);
+      std::pmr::vector<std::uint32_t> cells(size);
       form.kernels->number_cells(grid, points.x.data(), points.y.data(), points.z.data(), size, cells.data());
       for (std::size_t i = 0; i < size; ++i) {
         const auto cell = [](float v) { return static_cast<std::uint32_t>(std::floor(v * 100.0f) + 200); };
@@ -274,15 +275,15 @@ TEST(PointKernels, TagBandsAndKeepDepths) {
   constexpr std::int32_t kOwn = 3, kLeftOut = -2;
   for (const std::size_t size : {0, 5, 8, 21, 400}) {
     Points points(size, 5);
-    std::vector<std::int32_t> object_of_point(size + 1000 + kPointPadding);
+    std::pmr::vector<std::int32_t> object_of_point(size + 1000 + kPointPadding);
     for (std::size_t i = 0; i < object_of_point.size(); ++i)
       object_of_point[i] = static_cast<std::int32_t>(i % 7) - 2;
     const BandPoints band{points.x.data(), points.y.data(), points.index.data(), size};
     const BandTags tags{object_of_point.data(), kOwn, kLeftOut, -0.8f, 0.01f, 150};
     for (const Form& form : forms()) {
-      std::vector<std::int32_t> own(size + kPointPadding, -9), marks(own);
+      std::pmr::vector<std::int32_t> own(size + kPointPadding, -9), marks(own);
       form.kernels->tag_band(tags, band, own.data(), marks.data());
-      std::vector<float> expected;
+      std::pmr::vector<float> expected;
       for (std::size_t k = 0; k < size; ++k) {
         const std::int32_t object = object_of_point[points.index[k]];
         EXPECT_EQ(own[k], object == kOwn ? 1 : 0);
@@ -291,7 +292,7 @@ TEST(PointKernels, TagBandsAndKeepDepths) {
         EXPECT_EQ(marks[k], has_none ? 384 : bin + 192 * own[k]) << form.name << " " << points.x[k];
         if (object == kOwn && points.x[k] >= -0.5f && points.x[k] <= 0.25f) expected.push_back(points.y[k]);
       }
-      std::vector<float> depths(size + kPointPadding);
+      std::pmr::vector<float> depths(size + kPointPadding);
       depths.resize(form.kernels->keep_depths(band, own.data(), -0.5f, 0.25f, depths.data()));
       EXPECT_EQ(depths, expected) << form.name << " " << size;
     }
@@ -308,7 +309,7 @@ TEST(PointKernels, SelectPartsOfABand) {
     const BandPoints band{points.x.data(), points.y.data(), points.index.data(), size};
     for (const BandLimits& limits : {BandLimits{0.1f, -0.2f, 0.0f, 0.1f + 0.25f - 0.1f, -0.5f, 0.5f},
                                      BandLimits{0, 0.3f, 0.5f, kAnywhere, -1, 0}}) {
-      std::vector<std::uint32_t> expected;
+      std::pmr::vector<std::uint32_t> expected;
       for (std::uint32_t k = 0; k < size; ++k) {
         const float distance = std::abs(points.x[k] - limits.middle), depth = points.y[k] - limits.top;
         if (distance >= limits.min_distance && distance <= limits.max_distance && depth >= limits.min_depth &&
@@ -316,7 +317,7 @@ TEST(PointKernels, SelectPartsOfABand) {
           expected.push_back(k);
       }
       for (const Form& form : forms()) {
-        std::vector<std::uint32_t> selected(size + kPointPadding + 1, kUntouched);
+        std::pmr::vector<std::uint32_t> selected(size + kPointPadding + 1, kUntouched);
         const std::size_t n = form.kernels->select_band(limits, band, selected.data());
         EXPECT_EQ(selected.back(), kUntouched) << "writes beyond the room that is asked for";
         selected.resize(n);
@@ -330,7 +331,7 @@ TEST(PointKernels, SumMoments) {
   const Points points(50, 6);
   const float p[3] = {0.5f, 0.25f, -0.125f};
   for (const std::size_t num : {0, 1, 3, 8, 9, 27, 40}) {
-    std::vector<std::uint32_t> neighbors(num + kPointPadding);
+    std::pmr::vector<std::uint32_t> neighbors(num + kPointPadding);
     for (std::size_t k = 0; k < neighbors.size(); ++k)
       neighbors[k] = static_cast<std::uint32_t>((k * 7) % 50);
     double xx = 0, yz = 0, z = 0;

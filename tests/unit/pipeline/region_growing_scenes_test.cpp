@@ -33,10 +33,10 @@ TEST(RegionGrowingScenes, AgreesWithTheQueueOfThePaperAsMuchAsTheQueueWithItself
        {box_on_table(), cylinder_on_table(), lying_cylinder_on_table(), three_objects()}) {
     const VoxelSurfaces s = voxel_surfaces(render(scene));
     const Labels labels = grow_regions(s.normals, s.neighborhoods, s.is_edge, {}, {});
-    std::vector<std::uint32_t> seeds(s.cloud.size());
+    std::pmr::vector<std::uint32_t> seeds(s.cloud.size());
     std::iota(seeds.begin(), seeds.end(), 0u);
     std::mt19937 random(1);
-    std::vector<std::vector<std::int32_t>> queues;
+    std::vector<std::pmr::vector<std::int32_t>> queues;
     for (int k = 0; k < kOrders; ++k) {
       queues.push_back(grow_by_queue(s.normals, s.neighborhoods, s.is_edge, {}, seeds));
       std::shuffle(seeds.begin(), seeds.end(), random);

@@ -22,7 +22,7 @@ struct Input {
   PointCloud cloud;
   Neighborhoods neighborhoods;
   Normals normals;
-  std::vector<std::uint8_t> is_edge;
+  std::pmr::vector<std::uint8_t> is_edge;
   SmoothnessConfig config;
 
   Input(PointCloud points, const SmoothnessConfig& smoothness)
@@ -31,7 +31,7 @@ struct Input {
     normals = estimate_normals(cloud, neighborhoods);
     is_edge = find_edge_points(normals, neighborhoods, config);
   }
-  [[nodiscard]] Labels grow(const std::vector<std::uint8_t>& excluded = {}) const {
+  [[nodiscard]] Labels grow(const std::pmr::vector<std::uint8_t>& excluded = {}) const {
     return grow_regions(normals, neighborhoods, is_edge, excluded, config);
   }
 };
@@ -45,7 +45,8 @@ double angle_deg(const Normals& normals, std::size_t s, std::size_t p) {
 /// component.
 class PairwiseOracle {
  public:
-  PairwiseOracle(const Input& in, const std::vector<std::uint8_t>& excluded) : in_(in), excluded_(excluded) {
+  PairwiseOracle(const Input& in, const std::pmr::vector<std::uint8_t>& excluded)
+      : in_(in), excluded_(excluded) {
     const std::size_t n = in.cloud.size();
     linked_.assign(n, std::vector<bool>(n));
     for (std::size_t s = 0; s < n; ++s)
@@ -54,7 +55,7 @@ class PairwiseOracle {
   }
 
   /// Label of the component, -1 when none of its points is a surface point (or the point is excluded).
-  [[nodiscard]] const std::vector<std::int32_t>& grown() const { return label_; }
+  [[nodiscard]] const std::pmr::vector<std::int32_t>& grown() const { return label_; }
   [[nodiscard]] bool near(std::size_t s, std::size_t p) const {
     return (in_.cloud.point(s) - in_.cloud.point(p)).norm() <= kTestRadius;
   }
@@ -79,7 +80,7 @@ class PairwiseOracle {
     std::vector<bool> visited(n);
     for (std::size_t first = 0; first < n; ++first) {
       if (visited[first] || !takes_part(first)) continue;
-      std::vector<std::size_t> component{first};
+      std::pmr::vector<std::size_t> component{first};
       visited[first] = true;
       for (std::size_t k = 0; k < component.size(); ++k)
         for (std::size_t p = 0; p < n; ++p)
@@ -95,9 +96,9 @@ class PairwiseOracle {
   }
 
   const Input& in_;
-  const std::vector<std::uint8_t>& excluded_;
+  const std::pmr::vector<std::uint8_t>& excluded_;
   std::vector<std::vector<bool>> linked_;
-  std::vector<std::int32_t> label_;
+  std::pmr::vector<std::int32_t> label_;
   int num_labels_ = 0, num_unclear_ = 0;
 };
 
@@ -113,7 +114,7 @@ bool is_most_similar(const Input& in, const PairwiseOracle& oracle, std::size_t 
   return label < 0 ? best == -2 : of_label > best - 1e-6;
 }
 
-void expect_rule(const Input& in, const std::vector<std::uint8_t>& excluded = {}) {
+void expect_rule(const Input& in, const std::pmr::vector<std::uint8_t>& excluded = {}) {
   const PairwiseOracle oracle(in, excluded);
   ASSERT_EQ(oracle.num_unclear(), 0) << "the test's own cloud is on a threshold";
   const Labels labels = in.grow(excluded);
@@ -164,7 +165,7 @@ TEST(RegionGrowing, FollowsItsRuleOnScatteredPoints) {
 
 TEST(RegionGrowing, FollowsItsRuleWithExcludedPoints) {
   const Input in(box_on_plane(), thresholds(4, 15));
-  std::vector<std::uint8_t> excluded(in.cloud.size());
+  std::pmr::vector<std::uint8_t> excluded(in.cloud.size());
   for (std::size_t i = 0; i < excluded.size(); ++i) excluded[i] = in.cloud.z[i] < 0.003f ? 1 : 0;
   expect_rule(in, excluded);
 }
@@ -172,7 +173,7 @@ TEST(RegionGrowing, FollowsItsRuleWithExcludedPoints) {
 TEST(RegionGrowing, ExcludedPointsAreNoBridge) {
   const Input in(grid_patch({0, 0, 1}, {0.003f, 0, 0}, {0, 0.003f, 0}, 40, 10), thresholds(4, 15));
   EXPECT_EQ(in.grow().num_labels, 1);
-  std::vector<std::uint8_t> strip(in.cloud.size());
+  std::pmr::vector<std::uint8_t> strip(in.cloud.size());
   for (std::size_t i = 0; i < strip.size(); ++i) strip[i] = std::abs(in.cloud.x[i] - 0.06f) < 0.0062f ? 1 : 0;
   const Labels split = in.grow(strip);
   EXPECT_EQ(split.num_labels, 2);
@@ -197,7 +198,7 @@ TEST(RegionGrowing, LabelsCountFromTheFirstPoint) {
 }
 
 /// The same partition of the points, whatever the labels are called.
-bool same_partition(const std::vector<std::int32_t>& a, const std::vector<std::int32_t>& b) {
+bool same_partition(const std::pmr::vector<std::int32_t>& a, const std::pmr::vector<std::int32_t>& b) {
   std::map<std::int32_t, std::int32_t> to_b, to_a;
   for (std::size_t i = 0; i < a.size(); ++i)
     if (to_b.try_emplace(a[i], b[i]).first->second != b[i] ||
@@ -210,7 +211,7 @@ TEST(RegionGrowing, DoesNotDependOnTheOrderOfThePoints) {
   const PointCloud cloud = box_on_plane();
   const Input in(cloud, thresholds(4, 15));
   const Labels labels = in.grow();
-  std::vector<std::uint32_t> order(cloud.size());
+  std::pmr::vector<std::uint32_t> order(cloud.size());
   std::iota(order.begin(), order.end(), 0u);
   std::mt19937 random(5);
   for (int round = 0; round < 5; ++round) {
@@ -218,7 +219,7 @@ TEST(RegionGrowing, DoesNotDependOnTheOrderOfThePoints) {
     // Normals and edge points of the first order: their rounding depends on the order, the rule does not.
     PointCloud permuted;
     Normals normals;
-    std::vector<std::uint8_t> is_edge;
+    std::pmr::vector<std::uint8_t> is_edge;
     for (const std::uint32_t i : order) {
       permuted.push_back(cloud.point(i));
       normals.x.push_back(in.normals.x[i]);
@@ -228,7 +229,7 @@ TEST(RegionGrowing, DoesNotDependOnTheOrderOfThePoints) {
     }
     const Labels other =
         grow_regions(normals, find_neighborhoods(permuted, {kTestRadius}), is_edge, {}, in.config);
-    std::vector<std::int32_t> back(cloud.size());
+    std::pmr::vector<std::int32_t> back(cloud.size());
     for (std::size_t k = 0; k < order.size(); ++k) back[order[k]] = other.of_point[k];
     EXPECT_TRUE(same_partition(labels.of_point, back));
   }

@@ -15,7 +15,7 @@ namespace graspd {
 namespace {
 
 Labels all_one(std::size_t n) {
-  return {std::vector<std::int32_t>(n, 0), 1};
+  return {std::pmr::vector<std::int32_t>(n, 0), 1};
 }
 
 void expect_frame(const PointCloud& cloud, const Segment& segment) {
@@ -32,9 +32,9 @@ void expect_frame(const PointCloud& cloud, const Segment& segment) {
 TEST(Segments, NoLabels) {
   EXPECT_TRUE(build_segments({}, {}, kTestLeaf, {}).list.empty());
   const PointCloud cloud = random_cloud(10, {0, 0, 0}, {1, 1, 1}, 1);
-  const Segments none = build_segments(cloud, {std::vector<std::int32_t>(10, -1), 0}, kTestLeaf, {});
+  const Segments none = build_segments(cloud, {std::pmr::vector<std::int32_t>(10, -1), 0}, kTestLeaf, {});
   EXPECT_TRUE(none.list.empty());
-  EXPECT_EQ(none.of_point, std::vector<std::int32_t>(10, -1));
+  EXPECT_EQ(none.of_point, std::pmr::vector<std::int32_t>(10, -1));
 }
 
 TEST(Segments, AxesOfARectangle) {
@@ -56,7 +56,7 @@ TEST(Segments, AxesOfARectangle) {
 TEST(Segments, SmallSurfacesAreLeftOut) {
   const PointCloud cloud = joined(grid_patch({0, 0, 1}, {0.003f, 0, 0}, {0, 0.003f, 0}, 20, 2),
                                   grid_patch({1, 0, 1}, {0.003f, 0, 0}, {0, 0.003f, 0}, 13, 3));
-  Labels labels{std::vector<std::int32_t>(cloud.size(), 1), 2};
+  Labels labels{std::pmr::vector<std::int32_t>(cloud.size(), 1), 2};
   std::fill_n(labels.of_point.begin(), 40, 0);
   SegmentsConfig config;
   config.min_area_m2 = 40 * kTestLeaf * kTestLeaf * 0.999f;

@@ -21,12 +21,12 @@ TEST(ThinOut, TakesThePointNearestToTheMeanOfEachCell) {
     const Eigen::Vector3f c = (cloud.point(i) / kSpacing).array().floor();
     return std::tuple(c.x(), c.y(), c.z());
   };
-  std::map<std::tuple<float, float, float>, std::vector<std::uint32_t>> cells;
+  std::map<std::tuple<float, float, float>, std::pmr::vector<std::uint32_t>> cells;
   for (std::uint32_t i = 0; i < cloud.size(); ++i) cells[cell(i)].push_back(i);
-  const std::vector<std::uint32_t> chosen = thin_out(cloud, kSpacing);
+  const std::pmr::vector<std::uint32_t> chosen = thin_out(cloud, kSpacing);
   ASSERT_EQ(chosen.size(), cells.size());
   for (const std::uint32_t i : chosen) {
-    const std::vector<std::uint32_t>& own = cells.at(cell(i));
+    const std::pmr::vector<std::uint32_t>& own = cells.at(cell(i));
     Eigen::Vector3f mean = Eigen::Vector3f::Zero();
     for (const std::uint32_t k : own) mean += cloud.point(k);
     mean /= static_cast<float>(own.size());

@@ -34,8 +34,8 @@ VoxelSurfaces voxel_surfaces(const RenderedScene& scene, const SmoothnessConfig&
   return s;
 }
 
-std::vector<std::uint8_t> support_points(const std::optional<Support>& support) {
-  return support ? support->is_support : std::vector<std::uint8_t>{};
+std::pmr::vector<std::uint8_t> support_points(const std::optional<Support>& support) {
+  return support ? support->is_support : std::pmr::vector<std::uint8_t>{};
 }
 
 }  // namespace graspd

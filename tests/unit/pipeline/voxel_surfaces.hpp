@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The first stages of the pipeline run on a rendered scene, for tests of the later ones.
 #pragma once
+#include <memory_resource>
 #include <optional>
 #include <vector>
 
@@ -19,12 +20,12 @@ struct VoxelSurfaces {
   std::vector<int> solid;  ///< of each voxel: that of most of its points
   Neighborhoods neighborhoods;
   Normals normals;
-  std::vector<std::uint8_t> is_edge;
+  std::pmr::vector<std::uint8_t> is_edge;
 };
 
 [[nodiscard]] VoxelSurfaces voxel_surfaces(const RenderedScene& scene, const SmoothnessConfig& config = {});
 
 /// is_support of a support, or no points.
-[[nodiscard]] std::vector<std::uint8_t> support_points(const std::optional<Support>& support);
+[[nodiscard]] std::pmr::vector<std::uint8_t> support_points(const std::optional<Support>& support);
 
 }  // namespace graspd
