@@ -7,8 +7,6 @@
 #include <limits>
 #include <utility>
 
-#include "service/pipeline/point_kernels.hpp"
-
 namespace graspd {
 namespace {
 
@@ -233,17 +231,17 @@ std::int32_t DepthMap::hider(const Eigen::Vector3f& p, float margin_m) const {
 void DepthMap::find_hiders(const Probes& places, float margin_m, std::int32_t (&hiders)[kProbes]) const {
   std::fill_n(hiders, kProbes, kFree);
   if (depth_.empty()) return;
-  const Eigen::Vector3f right = to_view_.row(0), down = to_view_.row(1), forward = to_view_.row(2);
-  float u[kProbes], v[kProbes], depth[kProbes];
-  for (std::size_t k = 0; k < kProbes; ++k) {
-    const float dx = places.x[k] - viewpoint_.x(), dy = places.y[k] - viewpoint_.y(),
-                dz = places.z[k] - viewpoint_.z();
-    depth[k] = forward[0] * dx + forward[1] * dy + forward[2] * dz;
-    u[k] = column(right[0] * dx + right[1] * dy + right[2] * dz, depth[k]);
-    v[k] = row(down[0] * dx + down[1] * dy + down[2] * dz, depth[k]);
-  }
-  for (std::size_t k = 0; k < kProbes; ++k)
-    hiders[k] = hider_at(pixel(u[k], v[k], depth[k]), depth[k], margin_m);
+  ViewImage image{{viewpoint_.x(), viewpoint_.y(), viewpoint_.z()},
+                  {},
+                  {focal_u_, focal_v_},
+                  {center_u_, center_v_},
+                  width_,
+                  height_,
+                  depth_.data(),
+                  point_.data()};
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) image.axes[i][j] = to_view_(i, j);
+  point_kernels().find_hiders(image, places, margin_m, hiders);
 }
 
 }  // namespace graspd

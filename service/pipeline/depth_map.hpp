@@ -8,6 +8,7 @@
 
 #include "service/pipeline/pinhole_fit.hpp"
 #include "service/pipeline/point_cloud.hpp"
+#include "service/pipeline/point_kernels.hpp"
 
 namespace graspd {
 
@@ -22,10 +23,6 @@ class DepthMap {
   /// it does.
   [[nodiscard]] std::int32_t hider(const Eigen::Vector3f& p, float margin_m) const;
 
-  static constexpr std::size_t kProbes = 8;
-  struct Probes {
-    float x[kProbes], y[kProbes], z[kProbes];  ///< in the cloud's frame [m]
-  };
   /// The same for several places at once.
   void find_hiders(const Probes& places, float margin_m, std::int32_t (&hiders)[kProbes]) const;
 

@@ -206,8 +206,8 @@ Failure Check::check_walls() {
 }
 
 float Check::hidden_share(float f0, float f1, float z0, float z1, bool by_others) const {
-  constexpr std::size_t kDepths = DepthMap::kProbes;
-  DepthMap::Probes places;
+  constexpr std::size_t kDepths = kProbes;
+  Probes places;
   std::int32_t hiders[kDepths];
   int samples = 0, hidden = 0;
   const Eigen::Matrix3f& R = handle_.rotation;

@@ -157,6 +157,29 @@ CircleSums sum_circle(const CircleWeights& weights, const float* xs, const float
   return {sum[0], sum[1], sum[2], sum[3], sum[4], sum[5], sum[6], sum[7], sum[8]};
 }
 
+void find_hiders(const ViewImage& image, const Probes& places, float margin_m,
+                 std::int32_t (&hiders)[kProbes]) {
+  const auto& axes = image.axes;
+  float u[kProbes], v[kProbes], depth[kProbes];
+  for (std::size_t k = 0; k < kProbes; ++k) {
+    const float dx = places.x[k] - image.origin[0], dy = places.y[k] - image.origin[1],
+                dz = places.z[k] - image.origin[2];
+    const float x = axes[0][0] * dx + axes[0][1] * dy + axes[0][2] * dz,
+                y = axes[1][0] * dx + axes[1][1] * dy + axes[1][2] * dz;
+    depth[k] = axes[2][0] * dx + axes[2][1] * dy + axes[2][2] * dz;
+    u[k] = image.focal[0] * x / depth[k] + image.center[0] + 0.5f;
+    v[k] = image.focal[1] * y / depth[k] + image.center[1] + 0.5f;
+  }
+  const auto width = static_cast<float>(image.width), height = static_cast<float>(image.height);
+  for (std::size_t k = 0; k < kProbes; ++k) {
+    hiders[k] = -1;
+    if (!(depth[k] > 0 && u[k] >= 0 && v[k] >= 0 && u[k] < width && v[k] < height)) continue;
+    const std::int32_t pixel =
+        static_cast<std::int32_t>(v[k]) * image.width + static_cast<std::int32_t>(u[k]);
+    if (image.depth[pixel] > 0 && image.depth[pixel] < depth[k] - margin_m) hiders[k] = image.point[pixel];
+  }
+}
+
 void tag_band(const BandTags& tags, const BandPoints& points, std::int32_t* own, std::int32_t* marks) {
   const auto stride = static_cast<std::int32_t>(tags.stride());
   for (std::size_t k = 0; k < points.size; ++k)
@@ -194,9 +217,9 @@ std::size_t select_band(const BandLimits& limits, const BandPoints& points, std:
 }  // namespace
 
 const PointKernels& portable_kernels() {
-  static constexpr PointKernels kKernels{keep_inside, count_inside, meet_rows,     keep_near,
-                                         sum_moments, sum_circle,   extend_bounds, number_cells,
-                                         tag_band,    keep_depths,  select_band};
+  static constexpr PointKernels kKernels{keep_inside,  count_inside, meet_rows,   keep_near,
+                                         sum_moments,  sum_circle,   find_hiders, extend_bounds,
+                                         number_cells, tag_band,     keep_depths, select_band};
   return kKernels;
 }
 

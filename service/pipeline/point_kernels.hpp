@@ -90,6 +90,21 @@ struct Moments {
   float x, y, z, xx, xy, xz, yy, yz, zz;
 };
 
+/// A depth image and the view it was taken with.
+struct ViewImage {
+  float origin[3], axes[3][3];  ///< of the view in the cloud's frame; rows: right, down, forward
+  float focal[2], center[2];    ///< along columns and rows [pixels]
+  std::int32_t width, height;
+  const float* depth;         ///< of each pixel; 0: nothing seen
+  const std::int32_t* point;  ///< that the depth is of
+};
+
+/// Places in the cloud's frame that are looked at together [m].
+inline constexpr std::size_t kProbes = 8;
+struct Probes {
+  float x[kProbes], y[kProbes], z[kProbes];
+};
+
 /// Of points in a plane, about a place of one's own: each has the weight 1 / (1 + e^2) by its distance e from
 /// a circle, in units of a scale.
 struct CircleWeights {
@@ -123,6 +138,9 @@ struct PointKernels {
   /// Summed in four parts, every fourth point in one, which are added in order. As many as kPointPadding more
   /// points must be readable.
   CircleSums (*sum_circle)(const CircleWeights& weights, const float* x, const float* y, std::size_t n);
+  /// Writes for each place the point that hides it, nearer than it by more than margin_m, or -1.
+  void (*find_hiders)(const ViewImage& image, const Probes& places, float margin_m,
+                      std::int32_t (&hiders)[kProbes]);
   /// Widens [low, high] to hold n values; passes over NaN.
   void (*extend_bounds)(const float* v, std::size_t n, float& low, float& high);
   /// Writes the number of the cell of each of n points.

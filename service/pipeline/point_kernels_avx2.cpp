@@ -245,6 +245,43 @@ GRASPD_AVX2 CircleSums sum_circle(const CircleWeights& weights, const float* xs,
   return {total[0], total[1], total[2], total[3], total[4], total[5], total[6], total[7], total[8]};
 }
 
+/// Where places fall along one side of the image, of those at these coordinates in the view.
+GRASPD_AVX2 inline __m256 on_image(float focal, float center, __m256 x, __m256 depth) {
+  const __m256 scaled = _mm256_div_ps(_mm256_mul_ps(_mm256_set1_ps(focal), x), depth);
+  return _mm256_add_ps(_mm256_add_ps(scaled, _mm256_set1_ps(center)), _mm256_set1_ps(0.5f));
+}
+
+GRASPD_AVX2 inline __m256 in_side(__m256 v, std::int32_t side) {
+  return _mm256_and_ps(_mm256_cmp_ps(v, _mm256_setzero_ps(), _CMP_GE_OQ),
+                       _mm256_cmp_ps(v, _mm256_set1_ps(static_cast<float>(side)), _CMP_LT_OQ));
+}
+
+GRASPD_AVX2 void find_hiders(const ViewImage& image, const Probes& places, float margin_m,
+                             std::int32_t (&hiders)[kProbes]) {
+  const __m256 dx = _mm256_sub_ps(_mm256_loadu_ps(places.x), _mm256_set1_ps(image.origin[0])),
+               dy = _mm256_sub_ps(_mm256_loadu_ps(places.y), _mm256_set1_ps(image.origin[1])),
+               dz = _mm256_sub_ps(_mm256_loadu_ps(places.z), _mm256_set1_ps(image.origin[2]));
+  __m256 view[3];
+  for (int i = 0; i < 3; ++i) {
+    const auto axis = [&](int j) GRASPD_AVX2 { return _mm256_set1_ps(image.axes[i][j]); };
+    view[i] = _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(axis(0), dx), _mm256_mul_ps(axis(1), dy)),
+                            _mm256_mul_ps(axis(2), dz));
+  }
+  const __m256 u = on_image(image.focal[0], image.center[0], view[0], view[2]),
+               v = on_image(image.focal[1], image.center[1], view[1], view[2]), zero = _mm256_setzero_ps();
+  const __m256 inside = _mm256_and_ps(_mm256_cmp_ps(view[2], zero, _CMP_GT_OQ),
+                                      _mm256_and_ps(in_side(u, image.width), in_side(v, image.height)));
+  const __m256i pixel = _mm256_add_epi32(
+      _mm256_mullo_epi32(_mm256_cvttps_epi32(v), _mm256_set1_epi32(image.width)), _mm256_cvttps_epi32(u));
+  const __m256 depth = _mm256_mask_i32gather_ps(zero, image.depth, pixel, inside, sizeof(float));
+  const __m256 hides =
+      _mm256_and_ps(_mm256_cmp_ps(depth, zero, _CMP_GT_OQ),
+                    _mm256_cmp_ps(depth, _mm256_sub_ps(view[2], _mm256_set1_ps(margin_m)), _CMP_LT_OQ));
+  const __m256i hider = _mm256_mask_i32gather_epi32(_mm256_set1_epi32(-1), image.point, pixel,
+                                                    _mm256_castps_si256(hides), sizeof(std::int32_t));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(hiders), hider);
+}
+
 GRASPD_AVX2 void extend_bounds(const float* v, std::size_t n, float& low, float& high) {
   __m256 lows = _mm256_set1_ps(low), highs = _mm256_set1_ps(high);
   std::size_t i = 0;
@@ -385,9 +422,9 @@ GRASPD_AVX2 std::size_t select_band(const BandLimits& limits, const BandPoints& 
 }  // namespace
 
 const PointKernels* avx2_kernels() {
-  static constexpr PointKernels kKernels{keep_inside, count_inside, meet_rows,     keep_near,
-                                         sum_moments, sum_circle,   extend_bounds, number_cells,
-                                         tag_band,    keep_depths,  select_band};
+  static constexpr PointKernels kKernels{keep_inside,  count_inside, meet_rows,   keep_near,
+                                         sum_moments,  sum_circle,   find_hiders, extend_bounds,
+                                         number_cells, tag_band,     keep_depths, select_band};
   static const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("popcnt");
   return has_avx2 ? &kKernels : nullptr;
 }

@@ -117,15 +117,15 @@ TEST(DepthMapImage, AgreesWithTheRenderedOne) {
 TEST(DepthMapImage, SeveralPlacesAtOnceAreAnsweredAlike) {
   const WorkspaceResult kept = filter_workspace(thinned(render(seen_scene()).cloud, 1, 3), {});
   const DepthMap map(kept.cloud, kept.pixels);
-  DepthMap::Probes places{};
-  std::int32_t hiders[DepthMap::kProbes];
-  for (std::size_t k = 0; k < DepthMap::kProbes; ++k) {
+  Probes places{};
+  std::int32_t hiders[kProbes];
+  for (std::size_t k = 0; k < kProbes; ++k) {
     places.x[k] = 0.03f * static_cast<float>(k) - 0.1f;
     places.y[k] = 0.02f * static_cast<float>(k) - 0.1f;
     places.z[k] = 0.9f;
   }
   map.find_hiders(places, kMargin, hiders);
-  for (std::size_t k = 0; k < DepthMap::kProbes; ++k)
+  for (std::size_t k = 0; k < kProbes; ++k)
     EXPECT_EQ(hiders[k], map.hider({places.x[k], places.y[k], places.z[k]}, kMargin)) << k;
 }
 

@@ -132,15 +132,17 @@ TEST(DetectInvariance, MotionOfTheFrame) {
   }
 }
 
-// By whole voxels that are whole spacings of the seeds too (75 mm is both), nearly the same points meet
-// everywhere.
+// By whole voxels that are whole spacings of the sparse copy (1.33 voxels) and of the seeds (25 mm) too,
+// nearly the same points meet everywhere: a metre is 399, 300 and 40 of them.
 TEST(DetectInvariance, MotionByWholeVoxelsMovesTheHandles) {
   const PointCloud cloud = render(three_objects()).cloud;
+  DetectConfig config;
+  config.downsample.leaf_size_m = 1.0f / 399;
   Eigen::Isometry3f T = Eigen::Isometry3f::Identity();
-  T.translation() = 0.075f * Eigen::Vector3f(8, -6, 4);
-  Detection there = detect(moved(cloud, T));
+  T.translation() = Eigen::Vector3f(1, -1, 1);
+  Detection there = detect_handles(moved(cloud, T), {}, config);
   for (Handle& handle : there.handles) handle = transformed(handle, T.inverse());
-  expect_same_grips(detect(cloud), there);
+  expect_same_grips(detect_handles(cloud, {}, config), there);
 }
 
 TEST(DetectInvariance, NumberOfThreads) {

@@ -364,6 +364,48 @@ TEST(PointKernels, SumMoments) {
   }
 }
 
+TEST(PointKernels, FindWhatHidesPlacesInAnImage) {
+  constexpr std::int32_t kWidth = 40, kHeight = 30;
+  std::vector<float> depth(kWidth * kHeight, 0.8f);
+  std::vector<std::int32_t> point(depth.size());
+  std::iota(point.begin(), point.end(), 0);
+  for (std::size_t i = 0; i < depth.size(); i += 3) depth[i] = 0;  // nothing seen
+  const float c = std::cos(0.2f), s = std::sin(0.2f);
+  const ViewImage image{
+      {0.1f, 0, -0.1f}, {{c, 0, -s}, {0, 1, 0}, {s, 0, c}}, {30, 33}, {19, 14}, kWidth, kHeight, depth.data(),
+      point.data()};
+  std::mt19937 random(12);
+  std::uniform_real_distribution<float> unit(-1, 1);
+  int num_hidden = 0, num_free = 0;
+  for (int round = 0; round < 300; ++round) {
+    Probes places;
+    for (std::size_t k = 0; k < kProbes; ++k) {
+      places.x[k] = unit(random);
+      places.y[k] = unit(random);
+      places.z[k] = 0.8f + unit(random);  // some behind the sensor
+    }
+    for (const Form& form : forms()) {
+      std::int32_t hiders[kProbes];
+      form.kernels->find_hiders(image, places, 0.05f, hiders);
+      for (std::size_t k = 0; k < kProbes; ++k) {
+        const float dx = places.x[k] - 0.1f, dy = places.y[k], dz = places.z[k] + 0.1f;
+        const float z = s * dx + 0 * dy + c * dz;
+        const float u = 30 * (c * dx + 0 * dy + -s * dz) / z + 19 + 0.5f,
+                    v = 33 * (0 * dx + 1 * dy + 0 * dz) / z + 14 + 0.5f;
+        std::int32_t expected = -1;
+        if (z > 0 && u >= 0 && v >= 0 && u < kWidth && v < kHeight) {
+          const auto pixel = static_cast<std::size_t>(static_cast<int>(v) * kWidth + static_cast<int>(u));
+          if (depth[pixel] > 0 && depth[pixel] < z - 0.05f) expected = point[pixel];
+        }
+        ASSERT_EQ(hiders[k], expected) << form.name << " round " << round << " place " << k;
+        ++(expected < 0 ? num_free : num_hidden);
+      }
+    }
+  }
+  EXPECT_GT(num_hidden, 100);
+  EXPECT_GT(num_free, 100);
+}
+
 TEST(PointKernels, TheFastestFormIsChosen) {
   EXPECT_EQ(&point_kernels(), avx2_kernels() ? avx2_kernels() : &portable_kernels());
 }
