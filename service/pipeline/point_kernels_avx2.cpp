@@ -2,54 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Eight points at a time. Products and sums stay separate operations: fused ones would give other bits than
 // the portable form.
-#include "service/pipeline/point_kernels.hpp"
+#include "service/pipeline/avx2_lanes.hpp"
 
 #if defined(__x86_64__)
-#include <immintrin.h>
-
-#include <array>
-#include <bit>
-
-#define GRASPD_AVX2 __attribute__((target("avx2,popcnt")))
 
 namespace graspd {
 namespace {
 
-/// For each mask of eight lanes the lanes that are set, first ones first.
-constexpr std::array<std::array<std::uint32_t, 8>, 256> make_lane_table() {
-  std::array<std::array<std::uint32_t, 8>, 256> table{};
-  for (unsigned mask = 0; mask < 256; ++mask) {
-    std::size_t n = 0;
-    for (unsigned lane = 0; lane < 8; ++lane)
-      if ((mask >> lane) & 1) table[mask][n++] = lane;
-  }
-  return table;
-}
-
-alignas(32) constexpr auto kLanes = make_lane_table();
-
-GRASPD_AVX2 inline __m256i lanes_of(unsigned mask) {
-  return _mm256_load_si256(reinterpret_cast<const __m256i*>(kLanes[mask].data()));
-}
-
-GRASPD_AVX2 inline void store(float* to, __m256 v, __m256i lanes) {
-  _mm256_storeu_ps(to, _mm256_permutevar8x32_ps(v, lanes));
-}
-
-GRASPD_AVX2 inline void store_index(std::uint32_t* to, const std::uint32_t* from, __m256i lanes) {
-  const __m256i v = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from));
-  _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm256_permutevar8x32_epi32(v, lanes));
-}
-
-inline unsigned first_lanes(std::size_t n) {
-  return (1u << n) - 1;
-}
-
-/// Of a mask of the block of eight that begins at k the lanes that hold points, of so many points.
-inline unsigned valid_lanes(int mask, std::size_t k, std::size_t size) {
-  const auto lanes = static_cast<unsigned>(mask);
-  return k + 8 <= size ? lanes : lanes & first_lanes(size - k);
-}
+using namespace avx2;
 
 struct Box {
   __m256 m[3][3], shift[3], min[3], max[3];
@@ -154,10 +114,6 @@ GRASPD_AVX2 std::size_t keep_near(const float (&p)[3], float distance_squared, c
   return n;
 }
 
-GRASPD_AVX2 inline __m256i load(const void* from) {
-  return _mm256_loadu_si256(static_cast<const __m256i*>(from));
-}
-
 /// Sums of the eight lanes of nine vectors, each in the order of its lanes.
 GRASPD_AVX2 Moments sums_of_lanes(const __m256 (&v)[9]) {
   alignas(32) float part[9][8];
@@ -197,91 +153,6 @@ GRASPD_AVX2 Moments sum_moments(const float (&p)[3], const float* x, const float
   return sums_of_lanes(sum);
 }
 
-GRASPD_AVX2 inline double sum_in_order(__m256d v) {
-  alignas(32) double part[4];
-  _mm256_store_pd(part, v);
-  return part[0] + part[1] + part[2] + part[3];
-}
-
-/// Adds what four points give to their four parts.
-GRASPD_AVX2 inline void add_to_circle(__m128 xs, __m128 ys, __m128 weights, __m256d (&sum)[9]) {
-  const __m256d x = _mm256_cvtps_pd(xs), y = _mm256_cvtps_pd(ys), w = _mm256_cvtps_pd(weights);
-  const __m256d wx = _mm256_mul_pd(w, x), wy = _mm256_mul_pd(w, y),
-                wq = _mm256_mul_pd(w, _mm256_add_pd(_mm256_mul_pd(x, x), _mm256_mul_pd(y, y)));
-  sum[0] = _mm256_add_pd(sum[0], w);
-  sum[1] = _mm256_add_pd(sum[1], wx);
-  sum[2] = _mm256_add_pd(sum[2], wy);
-  sum[3] = _mm256_add_pd(sum[3], _mm256_mul_pd(wx, x));
-  sum[4] = _mm256_add_pd(sum[4], _mm256_mul_pd(wx, y));
-  sum[5] = _mm256_add_pd(sum[5], _mm256_mul_pd(wy, y));
-  sum[6] = _mm256_add_pd(sum[6], wq);
-  sum[7] = _mm256_add_pd(sum[7], _mm256_mul_pd(wq, x));
-  sum[8] = _mm256_add_pd(sum[8], _mm256_mul_pd(wq, y));
-}
-
-GRASPD_AVX2 CircleSums sum_circle(const CircleWeights& weights, const float* xs, const float* ys,
-                                  std::size_t n) {
-  const __m256 cx = _mm256_set1_ps(weights.x), cy = _mm256_set1_ps(weights.y),
-               radius = _mm256_set1_ps(weights.radius), per_scale = _mm256_set1_ps(weights.per_scale),
-               one = _mm256_set1_ps(1);
-  const __m256i lane = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
-  __m256d sum[9];
-  for (__m256d& s : sum) s = _mm256_setzero_pd();
-  for (std::size_t i = 0; i < n; i += 8) {
-    // Points beyond the last are zero and have no weight.
-    const __m256 valid =
-        _mm256_castsi256_ps(_mm256_cmpgt_epi32(_mm256_set1_epi32(static_cast<int>(n - i)), lane));
-    const __m256 x = _mm256_and_ps(valid, _mm256_loadu_ps(xs + i)),
-                 y = _mm256_and_ps(valid, _mm256_loadu_ps(ys + i));
-    const __m256 dx = _mm256_sub_ps(x, cx), dy = _mm256_sub_ps(y, cy);
-    const __m256 distance = _mm256_sqrt_ps(_mm256_add_ps(_mm256_mul_ps(dx, dx), _mm256_mul_ps(dy, dy)));
-    const __m256 e = _mm256_mul_ps(_mm256_sub_ps(distance, radius), per_scale);
-    const __m256 w = _mm256_and_ps(valid, _mm256_div_ps(one, _mm256_add_ps(one, _mm256_mul_ps(e, e))));
-    add_to_circle(_mm256_castps256_ps128(x), _mm256_castps256_ps128(y), _mm256_castps256_ps128(w), sum);
-    add_to_circle(_mm256_extractf128_ps(x, 1), _mm256_extractf128_ps(y, 1), _mm256_extractf128_ps(w, 1), sum);
-  }
-  double total[9];
-  for (int k = 0; k < 9; ++k) total[k] = sum_in_order(sum[k]);
-  return {total[0], total[1], total[2], total[3], total[4], total[5], total[6], total[7], total[8]};
-}
-
-/// Where places fall along one side of the image, of those at these coordinates in the view.
-GRASPD_AVX2 inline __m256 on_image(float focal, float center, __m256 x, __m256 depth) {
-  const __m256 scaled = _mm256_div_ps(_mm256_mul_ps(_mm256_set1_ps(focal), x), depth);
-  return _mm256_add_ps(_mm256_add_ps(scaled, _mm256_set1_ps(center)), _mm256_set1_ps(0.5f));
-}
-
-GRASPD_AVX2 inline __m256 in_side(__m256 v, std::int32_t side) {
-  return _mm256_and_ps(_mm256_cmp_ps(v, _mm256_setzero_ps(), _CMP_GE_OQ),
-                       _mm256_cmp_ps(v, _mm256_set1_ps(static_cast<float>(side)), _CMP_LT_OQ));
-}
-
-GRASPD_AVX2 void find_hiders(const ViewImage& image, const Probes& places, float margin_m,
-                             std::int32_t (&hiders)[kProbes]) {
-  const __m256 dx = _mm256_sub_ps(_mm256_loadu_ps(places.x), _mm256_set1_ps(image.origin[0])),
-               dy = _mm256_sub_ps(_mm256_loadu_ps(places.y), _mm256_set1_ps(image.origin[1])),
-               dz = _mm256_sub_ps(_mm256_loadu_ps(places.z), _mm256_set1_ps(image.origin[2]));
-  __m256 view[3];
-  for (int i = 0; i < 3; ++i) {
-    const auto axis = [&](int j) GRASPD_AVX2 { return _mm256_set1_ps(image.axes[i][j]); };
-    view[i] = _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(axis(0), dx), _mm256_mul_ps(axis(1), dy)),
-                            _mm256_mul_ps(axis(2), dz));
-  }
-  const __m256 u = on_image(image.focal[0], image.center[0], view[0], view[2]),
-               v = on_image(image.focal[1], image.center[1], view[1], view[2]), zero = _mm256_setzero_ps();
-  const __m256 inside = _mm256_and_ps(_mm256_cmp_ps(view[2], zero, _CMP_GT_OQ),
-                                      _mm256_and_ps(in_side(u, image.width), in_side(v, image.height)));
-  const __m256i pixel = _mm256_add_epi32(
-      _mm256_mullo_epi32(_mm256_cvttps_epi32(v), _mm256_set1_epi32(image.width)), _mm256_cvttps_epi32(u));
-  const __m256 depth = _mm256_mask_i32gather_ps(zero, image.depth, pixel, inside, sizeof(float));
-  const __m256 hides =
-      _mm256_and_ps(_mm256_cmp_ps(depth, zero, _CMP_GT_OQ),
-                    _mm256_cmp_ps(depth, _mm256_sub_ps(view[2], _mm256_set1_ps(margin_m)), _CMP_LT_OQ));
-  const __m256i hider = _mm256_mask_i32gather_epi32(_mm256_set1_epi32(-1), image.point, pixel,
-                                                    _mm256_castps_si256(hides), sizeof(std::int32_t));
-  _mm256_storeu_si256(reinterpret_cast<__m256i*>(hiders), hider);
-}
-
 GRASPD_AVX2 void extend_bounds(const float* v, std::size_t n, float& low, float& high) {
   __m256 lows = _mm256_set1_ps(low), highs = _mm256_set1_ps(high);
   std::size_t i = 0;
@@ -297,12 +168,6 @@ GRASPD_AVX2 void extend_bounds(const float* v, std::size_t n, float& low, float&
   _mm256_store_ps(lanes, highs);
   portable_kernels().extend_bounds(lanes, 8, unused, high);
   portable_kernels().extend_bounds(v + i, n - i, low, high);
-}
-
-GRASPD_AVX2 inline __m256i floor_to_int(__m256 v) {
-  const __m256i truncated = _mm256_cvttps_epi32(v);
-  const __m256 above = _mm256_cmp_ps(_mm256_cvtepi32_ps(truncated), v, _CMP_GT_OQ);
-  return _mm256_add_epi32(truncated, _mm256_castps_si256(above));  // the mask is -1 where that rounded up
 }
 
 GRASPD_AVX2 void meet_rows(const RowLimits& limits, const CellRows& rows, std::int32_t* from,
@@ -355,68 +220,6 @@ GRASPD_AVX2 void number_cells(const CellGrid& grid, const float* x, const float*
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(out + i), cell);
   }
   portable_kernels().number_cells(grid, x + i, y + i, z + i, n - i, out + i);
-}
-
-GRASPD_AVX2 void tag_band(const BandTags& tags, const BandPoints& points, std::int32_t* own,
-                          std::int32_t* marks) {
-  const __m256 first = _mm256_set1_ps(tags.first), bin = _mm256_set1_ps(tags.bin);
-  const __m256i object = _mm256_set1_epi32(tags.object), left_out = _mm256_set1_epi32(tags.left_out),
-                last = _mm256_set1_epi32(tags.num_bins - 1), no_mark = _mm256_set1_epi32(tags.no_mark()),
-                stride = _mm256_set1_epi32(static_cast<int>(tags.stride()));
-  std::size_t k = 0;
-  for (; k + 8 <= points.size; k += 8) {
-    const __m256i of_point =
-        _mm256_i32gather_epi32(tags.object_of_point, load(points.index + k), sizeof(std::int32_t));
-    const __m256i same = _mm256_cmpeq_epi32(of_point, object);
-    const __m256i is_own = _mm256_srli_epi32(same, 31);
-    const __m256i b = floor_to_int(_mm256_div_ps(_mm256_sub_ps(_mm256_loadu_ps(points.f + k), first), bin));
-    const __m256i outside = _mm256_or_si256(b, _mm256_cmpgt_epi32(b, last));  // by its sign
-    const __m256i none =
-        _mm256_or_si256(_mm256_cmpeq_epi32(of_point, left_out), _mm256_srai_epi32(outside, 31));
-    const __m256i mark = _mm256_add_epi32(b, _mm256_and_si256(same, stride));
-    _mm256_storeu_si256(reinterpret_cast<__m256i*>(own + k), is_own);
-    _mm256_storeu_si256(reinterpret_cast<__m256i*>(marks + k), _mm256_blendv_epi8(mark, no_mark, none));
-  }
-  portable_kernels().tag_band(tags, {points.f + k, points.z + k, points.index + k, points.size - k}, own + k,
-                              marks + k);
-}
-
-GRASPD_AVX2 std::size_t keep_depths(const BandPoints& points, const std::int32_t* own, float f_min,
-                                    float f_max, float* out) {
-  const __m256 min = _mm256_set1_ps(f_min), max = _mm256_set1_ps(f_max);
-  std::size_t n = 0;
-  for (std::size_t k = 0; k < points.size; k += 8) {
-    const __m256 f = _mm256_loadu_ps(points.f + k);
-    const __m256 within = _mm256_and_ps(_mm256_cmp_ps(f, min, _CMP_GE_OQ), _mm256_cmp_ps(f, max, _CMP_LE_OQ));
-    const __m256 is_own = _mm256_castsi256_ps(_mm256_cmpgt_epi32(load(own + k), _mm256_setzero_si256()));
-    const unsigned mask = valid_lanes(_mm256_movemask_ps(_mm256_and_ps(within, is_own)), k, points.size);
-    store(out + n, _mm256_loadu_ps(points.z + k), lanes_of(mask));
-    n += static_cast<std::size_t>(std::popcount(mask));
-  }
-  return n;
-}
-
-GRASPD_AVX2 std::size_t select_band(const BandLimits& limits, const BandPoints& points, std::uint32_t* out) {
-  const __m256 middle = _mm256_set1_ps(limits.middle), top = _mm256_set1_ps(limits.top),
-               min_distance = _mm256_set1_ps(limits.min_distance),
-               max_distance = _mm256_set1_ps(limits.max_distance),
-               min_depth = _mm256_set1_ps(limits.min_depth), max_depth = _mm256_set1_ps(limits.max_depth);
-  const __m256 sign = _mm256_set1_ps(-0.0f);
-  std::size_t n = 0;
-  for (std::size_t k = 0; k < points.size; k += 8) {
-    const __m256 distance = _mm256_andnot_ps(sign, _mm256_sub_ps(_mm256_loadu_ps(points.f + k), middle));
-    const __m256 depth = _mm256_sub_ps(_mm256_loadu_ps(points.z + k), top);
-    const __m256 near = _mm256_and_ps(_mm256_cmp_ps(distance, min_distance, _CMP_GE_OQ),
-                                      _mm256_cmp_ps(distance, max_distance, _CMP_LE_OQ));
-    const __m256 within = _mm256_and_ps(_mm256_cmp_ps(depth, min_depth, _CMP_GE_OQ),
-                                        _mm256_cmp_ps(depth, max_depth, _CMP_LE_OQ));
-    const unsigned mask = valid_lanes(_mm256_movemask_ps(_mm256_and_ps(near, within)), k, points.size);
-    if (mask == 0) continue;
-    _mm256_storeu_si256(reinterpret_cast<__m256i*>(out + n),
-                        _mm256_add_epi32(lanes_of(mask), _mm256_set1_epi32(static_cast<int>(k))));
-    n += static_cast<std::size_t>(std::popcount(mask));
-  }
-  return n;
 }
 
 }  // namespace

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+// What the kernels for AVX2 share. Included by their files alone.
+#pragma once
+#include "service/pipeline/point_kernels.hpp"
+
+#if defined(__x86_64__)
+#include <immintrin.h>
+
+#include <array>
+#include <bit>
+
+#define GRASPD_AVX2 __attribute__((target("avx2,popcnt")))
+
+namespace graspd::avx2 {
+
+/// For each mask of eight lanes the lanes that are set, first ones first.
+constexpr std::array<std::array<std::uint32_t, 8>, 256> make_lane_table() {
+  std::array<std::array<std::uint32_t, 8>, 256> table{};
+  for (unsigned mask = 0; mask < 256; ++mask) {
+    std::size_t n = 0;
+    for (unsigned lane = 0; lane < 8; ++lane)
+      if ((mask >> lane) & 1) table[mask][n++] = lane;
+  }
+  return table;
+}
+
+alignas(32) inline constexpr auto kLanes = make_lane_table();
+
+GRASPD_AVX2 inline __m256i lanes_of(unsigned mask) {
+  return _mm256_load_si256(reinterpret_cast<const __m256i*>(kLanes[mask].data()));
+}
+
+GRASPD_AVX2 inline void store(float* to, __m256 v, __m256i lanes) {
+  _mm256_storeu_ps(to, _mm256_permutevar8x32_ps(v, lanes));
+}
+
+GRASPD_AVX2 inline void store_index(std::uint32_t* to, const std::uint32_t* from, __m256i lanes) {
+  const __m256i v = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm256_permutevar8x32_epi32(v, lanes));
+}
+
+inline unsigned first_lanes(std::size_t n) {
+  return (1u << n) - 1;
+}
+
+/// Of a mask of the block of eight that begins at k the lanes that hold points, of so many points.
+inline unsigned valid_lanes(int mask, std::size_t k, std::size_t size) {
+  const auto lanes = static_cast<unsigned>(mask);
+  return k + 8 <= size ? lanes : lanes & first_lanes(size - k);
+}
+
+GRASPD_AVX2 inline __m256i load(const void* from) {
+  return _mm256_loadu_si256(static_cast<const __m256i*>(from));
+}
+
+GRASPD_AVX2 inline __m256i floor_to_int(__m256 v) {
+  const __m256i truncated = _mm256_cvttps_epi32(v);
+  const __m256 above = _mm256_cmp_ps(_mm256_cvtepi32_ps(truncated), v, _CMP_GT_OQ);
+  return _mm256_add_epi32(truncated, _mm256_castps_si256(above));  // the mask is -1 where that rounded up
+}
+
+// What a check does with the points that it gathered.
+CircleSums sum_circle(const CircleWeights& weights, const float* xs, const float* ys, std::size_t n);
+void find_hiders(const ViewImage& image, const Probes& places, float margin_m,
+                 std::int32_t (&hiders)[kProbes]);
+void tag_band(const BandTags& tags, const BandPoints& points, std::int32_t* own, std::int32_t* marks);
+std::size_t keep_depths(const BandPoints& points, const std::int32_t* own, float f_min, float f_max,
+                        float* out);
+std::size_t select_band(const BandLimits& limits, const BandPoints& points, std::uint32_t* out);
+
+}  // namespace graspd::avx2
+
+#endif
