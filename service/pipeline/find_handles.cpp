@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "service/pipeline/careful_check.hpp"
+#include "service/pipeline/first_handle.hpp"
 
 namespace graspd {
 namespace {
@@ -106,6 +107,8 @@ FoundHandles find_handles(const PointCloud& cloud, const PointIndex& index, cons
     add_for_parts_without(surfaces, std::exchange(result.handles, {}), settler, found);
     result.handles = std::move(found);
   }
+  for (FoundHandle& first : first_handles(result.handles, surfaces, gripper, config.check))
+    result.handles.push_back(std::move(first));
   std::pmr::vector<RankedHandle> ranked;
   ranked.reserve(result.handles.size());
   for (const FoundHandle& found : result.handles) ranked.push_back(found.ranked);

@@ -51,13 +51,9 @@ std::pmr::vector<std::int32_t> spread_to_points(const std::pmr::vector<std::int3
   return of_point;
 }
 
-/// Off the middle the object turns between the jaws: the margin falls off over 6 cm along the major axis.
-FoundHandle scored(const CheckResult& result, const Eigen::Vector3f& center, int object,
-                   const SceneView& scene) {
-  constexpr float kFalloff = 0.06f;
-  FoundHandle found{{result.handle, object}, result.margins, &scene, object};
-  const float off = result.handle.rotation.col(0).dot(center - result.handle.position) / kFalloff;
-  found.margins.central = std::exp(-off * off);
+FoundHandle scored(const CheckResult& result, const Objects& guess, int object, const SceneView& scene) {
+  FoundHandle found{{result.handle, object}, result.margins, &scene, &guess, object};
+  found.margins.central = centrality(result.handle, guess.center[static_cast<std::size_t>(object)]);
   found.ranked.handle.score = score(found.margins);
   return found;
 }
@@ -141,6 +137,12 @@ HandleCheckConfig coarse_limits(HandleCheckConfig limits) {
 
 }  // namespace
 
+float centrality(const Handle& handle, const Eigen::Vector3f& object_center) {
+  constexpr float kFalloff = 0.06f;
+  const float off = handle.rotation.col(0).dot(object_center - handle.position) / kFalloff;
+  return std::exp(-off * off);
+}
+
 PointIndex::PointIndex(const PointCloud& cloud, const ImagePixels& pixels)
     : depth_map(cloud, pixels), query(cloud, kPointCell) {}
 
@@ -191,7 +193,7 @@ void GuessSearch::run(const std::pmr::vector<std::uint8_t>& wanted, SearchResult
       count(left[k], fine[k].failure, out);
       if (fine[k].failure != Failure::kNone) continue;
       const auto object = static_cast<std::size_t>(left[k].object);
-      out.handles.push_back(scored(fine[k], objects_.center[object], left[k].object, points_));
+      out.handles.push_back(scored(fine[k], objects_, left[k].object, points_));
       ++handles_of_object[object];
     }
   }

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <numbers>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 namespace graspd {
@@ -35,11 +37,18 @@ float novelty(const Handle& handle, const std::pmr::vector<const Handle*>& other
   return 1 - std::exp(-nearest / (falloff_m * falloff_m));
 }
 
-/// Adds the best places of one object, each the best of those left with regard to score and distance from the
-/// ones before: a handle elsewhere on the object is worth more than the same again.
-void choose_places(const std::pmr::vector<RankedHandle>& handles, std::pmr::vector<std::size_t> left,
-                   const HandleRankingConfig& config, std::pmr::vector<const Handle*>& kept,
-                   std::pmr::vector<std::size_t>& chosen) {
+/// A handle that is kept, and the score that it gets.
+struct Chosen {
+  std::size_t index;
+  float score;
+};
+
+/// Adds the best places of one object, after its leader each the best of those left with regard to score and
+/// distance from the ones before: a handle elsewhere on the object is worth more than the same again.
+void choose_places(const std::pmr::vector<RankedHandle>& handles, std::size_t leader,
+                   std::pmr::vector<std::size_t> left, const HandleRankingConfig& config,
+                   std::pmr::vector<const Handle*>& kept, std::pmr::vector<Chosen>& chosen) {
+  constexpr float kAboveAll = 2, kRefuted = 0.1f;
   std::pmr::vector<const Handle*> own;
   while (!left.empty() && static_cast<int>(own.size()) < config.max_per_object) {
     std::size_t best = 0;
@@ -48,10 +57,15 @@ void choose_places(const std::pmr::vector<RankedHandle>& handles, std::pmr::vect
       return std::any_of(kept.begin(), kept.end(),
                          [&](const Handle* other) { return same_place(handles[i].handle, *other, config); });
     });
-    if (!own.empty())
+    if (!own.empty()) {
+      // Next to a first one that is all but refuted the others are not to be trusted, whatever they score.
+      if (own.front()->score < kRefuted * config.min_further_score) break;
       std::erase_if(left, [&](std::size_t i) { return handles[i].handle.score < config.min_further_score; });
+    }
     for (const std::size_t i : left) {
-      const float worth = handles[i].handle.score * novelty(handles[i].handle, own, config.spread_m);
+      const float worth = i == leader
+                              ? kAboveAll
+                              : handles[i].handle.score * novelty(handles[i].handle, own, config.spread_m);
       if (worth <= best_worth) continue;
       best_worth = worth;
       best = i;
@@ -60,34 +74,40 @@ void choose_places(const std::pmr::vector<RankedHandle>& handles, std::pmr::vect
     std::erase(left, best);
     own.push_back(&handles[best].handle);
     kept.push_back(&handles[best].handle);
-    chosen.push_back(best);
+    chosen.push_back({best, std::min(handles[best].handle.score, own.front()->score)});
   }
 }
 
-/// Indices of the handles that are kept, best first. leaders: the best of each object.
-std::pmr::vector<std::size_t> choose(const std::pmr::vector<RankedHandle>& handles,
-                                     const HandleRankingConfig& config,
-                                     std::pmr::vector<std::size_t>& leaders) {
+/// The handles that are kept, best first. leaders: the first of each object.
+std::pmr::vector<Chosen> choose(const std::pmr::vector<RankedHandle>& handles,
+                                const HandleRankingConfig& config, std::pmr::vector<std::size_t>& leaders) {
   std::pmr::vector<std::size_t> order(handles.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::erase_if(order, [&](std::size_t i) { return handles[i].handle.score < config.min_score; });
-  const auto better = [&](std::size_t a, std::size_t b) {
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     const float score_a = handles[a].handle.score, score_b = handles[b].handle.score;
     return score_a != score_b ? score_a > score_b : a < b;
-  };
-  std::sort(order.begin(), order.end(), better);
+  });
   std::pmr::map<int, std::pmr::vector<std::size_t>> of_object;
-  leaders.clear();
+  std::pmr::map<int, std::size_t> first;
   for (const std::size_t i : order) {
-    std::pmr::vector<std::size_t>& own = of_object[handles[i].object];
-    if (own.empty()) leaders.push_back(i);
-    own.push_back(i);
+    of_object[handles[i].object].push_back(i);
+    const auto [it, is_new] = first.try_emplace(handles[i].object, i);
+    if (handles[i].is_first) it->second = i;
   }
+  leaders.clear();
+  std::copy_if(order.begin(), order.end(), std::back_inserter(leaders),
+               [&](std::size_t i) { return first.at(handles[i].object) == i; });
   std::pmr::vector<const Handle*> kept;
-  std::pmr::vector<std::size_t> chosen;
+  std::pmr::vector<Chosen> chosen;
   for (const std::size_t leader : leaders)
-    choose_places(handles, of_object[handles[leader].object], config, kept, chosen);
-  std::sort(chosen.begin(), chosen.end(), better);
+    choose_places(handles, leader, of_object[handles[leader].object], config, kept, chosen);
+  std::sort(chosen.begin(), chosen.end(), [&](const Chosen& a, const Chosen& b) {
+    const auto key = [&](const Chosen& c) {
+      return std::tuple(-c.score, !handles[c.index].is_first, c.index);
+    };
+    return key(a) < key(b);
+  });
   if (chosen.size() > static_cast<std::size_t>(config.max_handles))
     chosen.resize(static_cast<std::size_t>(config.max_handles));
   return chosen;
@@ -97,18 +117,23 @@ std::pmr::vector<std::size_t> choose(const std::pmr::vector<RankedHandle>& handl
 
 std::pmr::vector<Handle> rank_handles(std::pmr::vector<RankedHandle> handles,
                                       const HandleRankingConfig& config, const SettleScores& settle) {
-  std::pmr::vector<std::uint8_t> is_final(handles.size(), settle ? 0 : 1);
+  std::pmr::vector<std::uint8_t> is_final;
+  is_final.reserve(handles.size());
+  for (const RankedHandle& handle : handles) is_final.push_back(!settle || handle.is_first ? 1 : 0);
   std::pmr::vector<std::size_t> leaders, open;
   for (;;) {
-    const std::pmr::vector<std::size_t> chosen = choose(handles, config, leaders);
+    const std::pmr::vector<Chosen> chosen = choose(handles, config, leaders);
     open.clear();
-    leaders.insert(leaders.end(), chosen.begin(), chosen.end());
+    for (const Chosen& c : chosen) leaders.push_back(c.index);
     for (const std::size_t i : leaders)
       if (!std::exchange(is_final[i], std::uint8_t{1})) open.push_back(i);
     if (open.empty()) {
       std::pmr::vector<Handle> ranked;
       ranked.reserve(chosen.size());
-      for (const std::size_t i : chosen) ranked.push_back(handles[i].handle);
+      for (const Chosen& c : chosen) {
+        ranked.push_back(handles[c.index].handle);
+        ranked.back().score = c.score;
+      }
       return ranked;
     }
     settle(open, handles);

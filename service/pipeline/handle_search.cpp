@@ -83,13 +83,6 @@ Eigen::Vector3f face_normal(const SearchInput& in, const PaddedPoints& object, s
   return sum.norm() > 1e-3f ? sum.normalized() : n;
 }
 
-std::pmr::vector<std::pmr::vector<std::uint32_t>> points_by_object(const Objects& objects) {
-  std::pmr::vector<std::pmr::vector<std::uint32_t>> points(static_cast<std::size_t>(objects.num_objects));
-  for (std::uint32_t i = 0; i < objects.of_point.size(); ++i)
-    if (objects.of_point[i] >= 0) points[static_cast<std::size_t>(objects.of_point[i])].push_back(i);
-  return points;
-}
-
 }  // namespace
 
 HandleSearch::HandleSearch(const SearchInput& input, const Gripper& gripper, const HandleSearchConfig& config,

@@ -90,6 +90,13 @@ std::pmr::vector<Eigen::Vector3f> centers(const PointCloud& cloud, const Objects
 
 }  // namespace
 
+std::pmr::vector<std::pmr::vector<std::uint32_t>> points_by_object(const Objects& objects) {
+  std::pmr::vector<std::pmr::vector<std::uint32_t>> points(static_cast<std::size_t>(objects.num_objects));
+  for (std::uint32_t i = 0; i < objects.of_point.size(); ++i)
+    if (objects.of_point[i] >= 0) points[static_cast<std::size_t>(objects.of_point[i])].push_back(i);
+  return points;
+}
+
 Objects group_segments(const PointCloud& cloud, const Normals& normals, const Neighborhoods& neighborhoods,
                        const Segments& segments, const std::pmr::vector<std::uint8_t>& is_support,
                        const ObjectsConfig& config) {

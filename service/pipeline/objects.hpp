@@ -37,6 +37,9 @@ struct Objects {
   std::pmr::vector<Eigen::Vector3f> center;   ///< mean of each object's points
 };
 
+/// Indices of the points of each object, ascending.
+[[nodiscard]] std::pmr::vector<std::pmr::vector<std::uint32_t>> points_by_object(const Objects& objects);
+
 /// A pair of neighbours i, j of two segments is convex when (n_i - n_j) . (p_i - p_j) > 0. Points in no
 /// segment take the object of most of their neighbours, except those of the support (is_support, may be
 /// empty).

@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/pipeline/first_handle.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "service/pipeline/workspace_filter.hpp"
+#include "tests/support/clouds.hpp"
+#include "tests/support/scene_gallery.hpp"
+#include "tests/unit/pipeline/detections.hpp"
+
+namespace graspd {
+namespace {
+
+/// What the search finds in a cloud, and the first handles among it.
+class Search {
+ public:
+  explicit Search(const PointCloud& cloud)
+      : kept_(filter_workspace(cloud, {})),
+        index_(kept_.cloud, kept_.pixels),
+        surfaces_(find_surfaces(kept_.cloud, {}, [](std::string_view) {})),
+        search_({kept_.cloud, index_, surfaces_}, surfaces_.objects, gripper_, config_) {
+    result_.segments.resize(surfaces_.segments.list.size());
+    search_.run(std::vector<std::uint8_t>(static_cast<std::size_t>(surfaces_.objects.num_objects), 1),
+                result_);
+    first_ = first_handles(result_.handles, surfaces_, gripper_, config_.check);
+  }
+  Search(const Search&) = delete;
+  Search& operator=(const Search&) = delete;
+
+  [[nodiscard]] const std::vector<FoundHandle>& found() const { return result_.handles; }
+  [[nodiscard]] const std::vector<FoundHandle>& first() const { return first_; }
+  [[nodiscard]] Failure check_again(const FoundHandle& found) const {
+    CheckBuffers buffers;
+    const Handle& handle = found.ranked.handle;
+    return check_candidate(*found.scene, gripper_, config_.check,
+                           {handle.position, handle.rotation, handle.segment, found.candidate_object},
+                           buffers)
+        .failure;
+  }
+
+ private:
+  Gripper gripper_;
+  DetectConfig config_;
+  WorkspaceResult kept_;
+  PointIndex index_;
+  Surfaces surfaces_;
+  GuessSearch search_;
+  SearchResult result_;
+  std::vector<FoundHandle> first_;
+};
+
+PointCloud long_box() {
+  return render(on_table({standing_box(0, 0, {0.20, 0.05, 0.06})})).cloud;
+}
+
+TEST(FirstHandle, NothingFoundNothingFirst) {
+  EXPECT_TRUE(first_handles({}, {}, {}, {}).empty());
+}
+
+TEST(FirstHandle, OneForEachObjectThatHasHandles) {
+  const Search search(render(three_objects()).cloud);
+  std::set<int> objects;
+  for (const FoundHandle& found : search.found()) objects.insert(found.ranked.object);
+  ASSERT_EQ(objects.size(), 3u);
+  ASSERT_EQ(search.first().size(), objects.size());
+  auto object = objects.begin();
+  for (const FoundHandle& first : search.first()) {
+    EXPECT_TRUE(first.ranked.is_first);
+    EXPECT_EQ(first.ranked.object, *object++);
+    EXPECT_EQ(search.check_again(first), Failure::kNone);
+    EXPECT_EQ(first.ranked.handle.score, score(first.margins));
+    EXPECT_GT(first.ranked.handle.score, 0.5f);
+  }
+}
+
+TEST(FirstHandle, TakesALongBoxInTheMiddle) {
+  const Search search(long_box());
+  ASSERT_EQ(search.first().size(), 1u);
+  const Handle& first = search.first()[0].ranked.handle;
+  EXPECT_NEAR(std::abs(first.rotation(0, 0)), 1, 0.02f) << "the major axis is the box's";
+  EXPECT_NEAR(first.position.x(), 0, 0.004f);
+}
+
+TEST(FirstHandle, TakesALongBoxWithoutASupportInTheMiddle) {
+  AnalyticScene scene = on_table({standing_box(0, 0, {0.20, 0.05, 0.06})});
+  scene.solids.erase(scene.solids.begin());
+  const Search search(render(scene).cloud);
+  ASSERT_EQ(search.first().size(), 1u);
+  EXPECT_NEAR(search.first()[0].ranked.handle.position.x(), 0, 0.004f);
+}
+
+/// Over a few noisy frames of the same scene: no seed of the noise is special.
+TEST(FirstHandle, StaysWhereItIsInNoise) {
+  for (const PointCloud& cloud : {long_box(), render(cylinder_on_table()).cloud}) {
+    const Search still(cloud);
+    ASSERT_EQ(still.first().size(), 1u);
+    std::vector<float> distances, angles;
+    for (std::uint32_t seed = 0; seed < 5; ++seed) {
+      const Search noisy(with_range_noise(cloud, 0.001f, seed));
+      ASSERT_EQ(noisy.first().size(), 1u);
+      const GripDifference move = difference(still.first()[0].ranked.handle, noisy.first()[0].ranked.handle);
+      distances.push_back(move.distance_m);
+      angles.push_back(move.angle_deg);
+    }
+    std::sort(distances.begin(), distances.end());
+    std::sort(angles.begin(), angles.end());
+    EXPECT_LT(distances[2], 0.005f);
+    EXPECT_LT(angles[2], 5.0f);
+  }
+}
+
+}  // namespace
+}  // namespace graspd
