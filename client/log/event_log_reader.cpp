@@ -124,8 +124,7 @@ bool EventLogReader::next_head(EventHead& head) {
   return true;
 }
 
-void EventLogReader::read_message(std::vector<std::byte>& bytes, std::int64_t most) {
-  bytes.resize(static_cast<std::size_t>(std::min(most, message_size_)));
+void EventLogReader::read_into(std::span<std::byte> bytes) {
   file_.clear();
   file_.seekg(position_ - message_size_);
   file_.read(reinterpret_cast<char*>(bytes.data()), std::ssize(bytes));

@@ -3,6 +3,7 @@
 // Reads LCM event logs. Own code, because liblcm's reader allocates and writes to whatever a length in the
 // file asks for.
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -54,8 +55,12 @@ class EventLogReader {
   /// As next(), without reading the message; read_message() does, until the next event is asked for.
   [[nodiscard]] bool next_head(EventHead& head);
   /// Or its first `most` bytes.
-  void read_message(std::vector<std::byte>& bytes,
-                    std::int64_t most = std::numeric_limits<std::int64_t>::max());
+  template <class Allocator>
+  void read_message(std::vector<std::byte, Allocator>& bytes,
+                    std::int64_t most = std::numeric_limits<std::int64_t>::max()) {
+    bytes.resize(static_cast<std::size_t>(std::min(most, message_size_)));
+    read_into(bytes);
+  }
 
   /// Where the next event is looked for: after the last one, at the end of the part behind the last.
   [[nodiscard]] std::int64_t position() const { return position_; }
@@ -65,6 +70,8 @@ class EventLogReader {
 
  private:
   struct Header;
+  /// As many bytes of the message as there is room for.
+  void read_into(std::span<std::byte> bytes);
   [[nodiscard]] static std::int64_t event_bytes(const Header& header);
   /// Nothing unless the bytes start with a header that can be one.
   [[nodiscard]] static std::optional<Header> parse_header(std::span<const char> bytes);

@@ -33,7 +33,8 @@ class Archive {
   /// False at the end of the last log.
   [[nodiscard]] bool next_head(EventHead& head);
   /// Of the event that next_head() gave last.
-  void read_message(std::vector<std::byte>& bytes,
+  template <class Allocator>
+  void read_message(std::vector<std::byte, Allocator>& bytes,
                     std::int64_t most = std::numeric_limits<std::int64_t>::max()) {
     reader_->read_message(bytes, most);
   }

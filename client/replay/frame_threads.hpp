@@ -10,17 +10,19 @@
 #include <functional>
 #include <future>
 #include <mutex>
+#include <string>
 #include <thread>
 #include <vector>
 
-#include "service/daemon/answer.hpp"
+#include "graspd/handle_list_t.hpp"
 
 namespace graspd {
 
 /// An answer and its message, ready to be written.
 struct EncodedAnswer {
-  Answer answer;
-  std::vector<std::byte> message;
+  std::string handles_channel;
+  handle_list_t list;
+  std::vector<std::byte> message;  ///< that says the list
 };
 
 /// While it lives, no frame is split over several threads: throughput is what counts offline.

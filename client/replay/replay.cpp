@@ -117,9 +117,10 @@ EncodedAnswer Replay::answer(const Item& item) const {
     }
   }
   if (!refusal) refusal = processor.check(message->bytes);
-  result.answer =
+  const Answer answer =
       refusal ? processor.refuse(*refusal, arrival) : processor.process(*message, Effort::kFull, never);
-  handle_list_t& list = result.answer.list;
+  result.handles_channel = answer.handles_channel;
+  handle_list_t& list = result.list = decode_handle_list(answer.list.bytes).value();
   list.latency = config_.times ? seconds(clock_.now() - arrival) : 0;
   if (!config_.times)
     for (stage_time_t& stage : list.stages) stage.milliseconds = 0;
@@ -134,10 +135,10 @@ void Replay::commit(Item& item) {
   }
   if (item.answer.valid()) {
     const EncodedAnswer done = item.answer.get();
-    output_.write(item.head.recv_utime, done.answer.handles_channel, done.message);
+    output_.write(item.head.recv_utime, done.handles_channel, done.message);
     ++state_.frames;
-    state_.handles += done.answer.list.num_handles;
-    ++state_.answers[std::string(status_name(done.answer.list.status))];
+    state_.handles += done.list.num_handles;
+    ++state_.answers[std::string(status_name(done.list.status))];
   }
   state_.input = item.after;
   state_.frames_seen = item.frames_seen;
