@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <memory_resource>
+
 #include <algorithm>
 #include <set>
 
@@ -24,15 +26,15 @@ class Search {
         surfaces_(find_surfaces(kept_.cloud, {}, [](std::string_view) {})),
         search_({kept_.cloud, index_, surfaces_}, surfaces_.objects, gripper_, config_) {
     result_.segments.resize(surfaces_.segments.list.size());
-    search_.run(std::vector<std::uint8_t>(static_cast<std::size_t>(surfaces_.objects.num_objects), 1),
+    search_.run(std::pmr::vector<std::uint8_t>(static_cast<std::size_t>(surfaces_.objects.num_objects), 1),
                 result_);
     first_ = first_handles(result_.handles, surfaces_, gripper_, config_.check);
   }
   Search(const Search&) = delete;
   Search& operator=(const Search&) = delete;
 
-  [[nodiscard]] const std::vector<FoundHandle>& found() const { return result_.handles; }
-  [[nodiscard]] const std::vector<FoundHandle>& first() const { return first_; }
+  [[nodiscard]] const std::pmr::vector<FoundHandle>& found() const { return result_.handles; }
+  [[nodiscard]] const std::pmr::vector<FoundHandle>& first() const { return first_; }
   [[nodiscard]] Failure check_again(const FoundHandle& found) const {
     CheckBuffers buffers;
     const Handle& handle = found.ranked.handle;
@@ -50,7 +52,7 @@ class Search {
   Surfaces surfaces_;
   GuessSearch search_;
   SearchResult result_;
-  std::vector<FoundHandle> first_;
+  std::pmr::vector<FoundHandle> first_;
 };
 
 PointCloud long_box() {
@@ -98,7 +100,7 @@ TEST(FirstHandle, StaysWhereItIsInNoise) {
   for (const PointCloud& cloud : {long_box(), render(cylinder_on_table()).cloud}) {
     const Search still(cloud);
     ASSERT_EQ(still.first().size(), 1u);
-    std::vector<float> distances, angles;
+    std::pmr::vector<float> distances, angles;
     for (std::uint32_t seed = 0; seed < 5; ++seed) {
       const Search noisy(with_range_noise(cloud, 0.001f, seed));
       ASSERT_EQ(noisy.first().size(), 1u);

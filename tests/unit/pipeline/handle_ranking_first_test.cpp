@@ -3,6 +3,8 @@
 // The handle that is marked as the first of its object leads it, whatever the others score.
 #include <gtest/gtest.h>
 
+#include <memory_resource>
+
 #include <algorithm>
 
 #include "service/pipeline/handle_ranking.hpp"
@@ -20,7 +22,7 @@ RankedHandle handle_at(float x, float score, int object = 0, bool is_first = fal
 }
 
 TEST(HandleRankingFirst, LeadsItsObjectAndTheOthersGetItsScore) {
-  const std::vector<Handle> ranked =
+  const std::pmr::vector<Handle> ranked =
       rank_handles({handle_at(0, 0.9f), handle_at(0.2f, 0.6f), handle_at(0.1f, 0.7f, 0, true)}, {});
   ASSERT_EQ(ranked.size(), 3u);
   EXPECT_EQ(ranked[0].position.x(), 0.1f);
@@ -31,13 +33,14 @@ TEST(HandleRankingFirst, LeadsItsObjectAndTheOthersGetItsScore) {
 }
 
 TEST(HandleRankingFirst, TakesThePlaceOfABetterOneNextToIt) {
-  const std::vector<Handle> ranked = rank_handles({handle_at(0, 0.9f), handle_at(0.01f, 0.7f, 0, true)}, {});
+  const std::pmr::vector<Handle> ranked =
+      rank_handles({handle_at(0, 0.9f), handle_at(0.01f, 0.7f, 0, true)}, {});
   ASSERT_EQ(ranked.size(), 1u);
   EXPECT_EQ(ranked[0].position.x(), 0.01f);
 }
 
 TEST(HandleRankingFirst, ObjectsAreInTheOrderOfTheirFirstHandles) {
-  const std::vector<Handle> ranked =
+  const std::pmr::vector<Handle> ranked =
       rank_handles({handle_at(0, 0.95f, 1), handle_at(0.2f, 0.6f, 1, true), handle_at(0, 0.8f, 2)}, {});
   ASSERT_EQ(ranked.size(), 3u);
   EXPECT_EQ(ranked[0].position.y(), 2.0f);
@@ -57,23 +60,24 @@ TEST(HandleRankingFirst, AnAllButRefutedOneHasNoOthersBesideIt) {
 TEST(HandleRankingFirst, BelowTheLeastScoreItDoesNotCount) {
   HandleRankingConfig config;
   config.min_score = 0.3f;
-  const std::vector<Handle> ranked =
+  const std::pmr::vector<Handle> ranked =
       rank_handles({handle_at(0, 0.9f), handle_at(0.2f, 0.2f, 0, true)}, config);
   ASSERT_EQ(ranked.size(), 1u);
   EXPECT_EQ(ranked[0].score, 0.9f);
 }
 
 TEST(HandleRankingFirst, ItsScoreIsFinal) {
-  std::vector<std::size_t> asked;
-  const auto settle = [&asked](const std::vector<std::size_t>& which, std::vector<RankedHandle>& handles) {
+  std::pmr::vector<std::size_t> asked;
+  const auto settle = [&asked](const std::pmr::vector<std::size_t>& which,
+                               std::pmr::vector<RankedHandle>& handles) {
     asked.insert(asked.end(), which.begin(), which.end());
     for (const std::size_t i : which) handles[i].handle.score *= 0.5f;
   };
   HandleRankingConfig config;
   config.min_further_score = 0.1f;
-  const std::vector<Handle> ranked =
+  const std::pmr::vector<Handle> ranked =
       rank_handles({handle_at(0, 0.9f), handle_at(0.2f, 0.7f, 0, true)}, config, settle);
-  EXPECT_EQ(asked, std::vector<std::size_t>{0});
+  EXPECT_EQ(asked, std::pmr::vector<std::size_t>{0});
   ASSERT_EQ(ranked.size(), 2u);
   EXPECT_EQ(ranked[0].score, 0.7f);
   EXPECT_EQ(ranked[1].score, 0.45f);

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <memory_resource>
+
 #include <numeric>
 
 #include "tests/support/clouds.hpp"
@@ -28,7 +30,7 @@ class OneObject {
 
  private:
   Surfaces surfaces_;
-  std::vector<std::uint32_t> points_;
+  std::pmr::vector<std::uint32_t> points_;
   Eigen::Vector3f center_;
 };
 

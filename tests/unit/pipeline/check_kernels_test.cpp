@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Both forms of the kernels that checks use against the definition, and against each other to the bit.
+#include <gtest/gtest.h>
+
+#include <memory_resource>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <random>
+#include <vector>
+
+#include "service/pipeline/point_kernels.hpp"
+#include "tests/unit/pipeline/kernel_forms.hpp"
+
+namespace graspd {
+namespace {
+
+TEST(CheckKernels, SumOverPointsWeighedByACircle) {
+  const Points points(60, 11);
+  for (const std::size_t num : {0, 1, 3, 8, 12, 40, 60}) {
+    for (const CircleWeights& weights : {CircleWeights{0, 0, 0, 0}, CircleWeights{0.1f, -0.2f, 0.5f, 4}}) {
+      double n = 0, xy = 0, qy = 0;
+      for (std::size_t k = 0; k < num; ++k) {
+        const double x = double{points.x[k]}, y = double{points.y[k]};
+        const double e = (std::hypot(x - double{weights.x}, y - double{weights.y}) - double{weights.radius}) *
+                         double{weights.per_scale};
+        const double w = 1 / (1 + e * e);
+        n += w;
+        xy += w * x * y;
+        qy += w * (x * x + y * y) * y;
+      }
+      const auto sums = [&](const PointKernels& kernels) {
+        return kernels.sum_circle(weights, points.x.data(), points.y.data(), num);
+      };
+      const CircleSums expected = sums(portable_kernels());
+      EXPECT_NEAR(expected.n, n, 1e-4);
+      EXPECT_NEAR(expected.xy, xy, 1e-4);
+      EXPECT_NEAR(expected.qy, qy, 1e-4);
+      for (const Form& form : forms()) {
+        const CircleSums s = sums(*form.kernels);
+        const auto all = [](const CircleSums& c) {
+          return std::array{c.n, c.x, c.y, c.xx, c.xy, c.yy, c.q, c.qx, c.qy};
+        };
+        EXPECT_EQ(all(s), all(expected)) << form.name << " " << num;
+      }
+    }
+  }
+}
+
+TEST(CheckKernels, TagBandsAndKeepDepths) {
+  constexpr std::int32_t kOwn = 3, kLeftOut = -2;
+  for (const std::size_t size : {0, 5, 8, 21, 400}) {
+    Points points(size, 5);
+    std::pmr::vector<std::int32_t> object_of_point(size + 1000 + kPointPadding);
+    for (std::size_t i = 0; i < object_of_point.size(); ++i)
+      object_of_point[i] = static_cast<std::int32_t>(i % 7) - 2;
+    const BandPoints band{points.x.data(), points.y.data(), points.index.data(), size};
+    const BandTags tags{object_of_point.data(), kOwn, kLeftOut, -0.8f, 0.01f, 150};
+    for (const Form& form : forms()) {
+      std::pmr::vector<std::int32_t> own(size + kPointPadding, -9), marks(own);
+      form.kernels->tag_band(tags, band, own.data(), marks.data());
+      std::pmr::vector<float> expected;
+      for (std::size_t k = 0; k < size; ++k) {
+        const std::int32_t object = object_of_point[points.index[k]];
+        EXPECT_EQ(own[k], object == kOwn ? 1 : 0);
+        const auto bin = static_cast<std::int32_t>(std::floor((points.x[k] + 0.8f) / 0.01f));
+        const bool has_none = object == kLeftOut || bin < 0 || bin >= 150;
+        EXPECT_EQ(marks[k], has_none ? 384 : bin + 192 * own[k]) << form.name << " " << points.x[k];
+        if (object == kOwn && points.x[k] >= -0.5f && points.x[k] <= 0.25f) expected.push_back(points.y[k]);
+      }
+      std::pmr::vector<float> depths(size + kPointPadding);
+      depths.resize(form.kernels->keep_depths(band, own.data(), -0.5f, 0.25f, depths.data()));
+      EXPECT_EQ(depths, expected) << form.name << " " << size;
+    }
+  }
+}
+
+TEST(CheckKernels, SelectPartsOfABand) {
+  constexpr float kAnywhere = std::numeric_limits<float>::infinity();
+  for (const std::size_t size : {0, 7, 8, 9, 400}) {
+    Points points(size, 8);
+    // On the bounds belongs to the part, NaN never does, and what is beyond the points does not count.
+    if (size > 2) points.x[1] = 0.1f + 0.25f;
+    if (size > 2) points.y[2] = std::numeric_limits<float>::quiet_NaN();
+    const BandPoints band{points.x.data(), points.y.data(), points.index.data(), size};
+    for (const BandLimits& limits : {BandLimits{0.1f, -0.2f, 0.0f, 0.1f + 0.25f - 0.1f, -0.5f, 0.5f},
+                                     BandLimits{0, 0.3f, 0.5f, kAnywhere, -1, 0}}) {
+      std::pmr::vector<std::uint32_t> expected;
+      for (std::uint32_t k = 0; k < size; ++k) {
+        const float distance = std::abs(points.x[k] - limits.middle), depth = points.y[k] - limits.top;
+        if (distance >= limits.min_distance && distance <= limits.max_distance && depth >= limits.min_depth &&
+            depth <= limits.max_depth)
+          expected.push_back(k);
+      }
+      for (const Form& form : forms()) {
+        std::pmr::vector<std::uint32_t> selected(size + kPointPadding + 1, kUntouched);
+        const std::size_t n = form.kernels->select_band(limits, band, selected.data());
+        EXPECT_EQ(selected.back(), kUntouched) << "writes beyond the room that is asked for";
+        selected.resize(n);
+        EXPECT_EQ(selected, expected) << form.name << " " << size;
+      }
+    }
+  }
+}
+
+TEST(CheckKernels, FindWhatHidesPlacesInAnImage) {
+  constexpr std::int32_t kWidth = 40, kHeight = 30;
+  std::vector<float> depth(kWidth * kHeight, 0.8f);
+  std::vector<std::int32_t> point(depth.size());
+  std::iota(point.begin(), point.end(), 0);
+  for (std::size_t i = 0; i < depth.size(); i += 3) depth[i] = 0;  // nothing seen
+  const float c = std::cos(0.2f), s = std::sin(0.2f);
+  const ViewImage image{
+      {0.1f, 0, -0.1f}, {{c, 0, -s}, {0, 1, 0}, {s, 0, c}}, {30, 33}, {19, 14}, kWidth, kHeight, depth.data(),
+      point.data()};
+  std::mt19937 random(12);
+  std::uniform_real_distribution<float> unit(-1, 1);
+  int num_hidden = 0, num_free = 0;
+  for (int round = 0; round < 300; ++round) {
+    Probes places;
+    for (std::size_t k = 0; k < kProbes; ++k) {
+      places.x[k] = unit(random);
+      places.y[k] = unit(random);
+      places.z[k] = 0.8f + unit(random);  // some behind the sensor
+    }
+    for (const Form& form : forms()) {
+      std::int32_t hiders[kProbes];
+      form.kernels->find_hiders(image, places, 0.05f, hiders);
+      for (std::size_t k = 0; k < kProbes; ++k) {
+        const float dx = places.x[k] - 0.1f, dy = places.y[k], dz = places.z[k] + 0.1f;
+        const float z = s * dx + 0 * dy + c * dz;
+        const float u = 30 * (c * dx + 0 * dy + -s * dz) / z + 19 + 0.5f,
+                    v = 33 * (0 * dx + 1 * dy + 0 * dz) / z + 14 + 0.5f;
+        std::int32_t expected = -1;
+        if (z > 0 && u >= 0 && v >= 0 && u < kWidth && v < kHeight) {
+          const auto pixel = static_cast<std::size_t>(static_cast<int>(v) * kWidth + static_cast<int>(u));
+          if (depth[pixel] > 0 && depth[pixel] < z - 0.05f) expected = point[pixel];
+        }
+        ASSERT_EQ(hiders[k], expected) << form.name << " round " << round << " place " << k;
+        ++(expected < 0 ? num_free : num_hidden);
+      }
+    }
+  }
+  EXPECT_GT(num_hidden, 100);
+  EXPECT_GT(num_free, 100);
+}
+
+}  // namespace
+}  // namespace graspd
