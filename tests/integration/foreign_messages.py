@@ -34,6 +34,11 @@ class Frame:
         return Frame(int(entries["WIDTH"]), int(entries["HEIGHT"]),
                      [struct.unpack_from("<fff", data, i * step) for i in range(count)])
 
+    def one_row(self):
+        """What was measured, unorganized."""
+        points = [p for p in self.points if not math.isnan(p[2])]
+        return Frame(len(points), 1, points)
+
 
 def own_message(frame):
     """The frame as point_cloud_t."""
@@ -82,8 +87,9 @@ class Layout:
     """Points packed as somebody might: another field before, bytes left over after each point and each row."""
 
     def __init__(self, frame, big_endian, wide, one_row):
-        points = [p for p in frame.points if not math.isnan(p[2])] if one_row else frame.points
-        self.width, self.height = (len(points), 1) if one_row else (frame.width, frame.height)
+        frame = frame.one_row() if one_row else frame
+        points = frame.points
+        self.width, self.height = frame.width, frame.height
         self.datatype, size = (FLOAT64, 8) if wide else (FLOAT32, 4)
         self.fields = [("intensity", 0, 4, 1), *((n, 3 + size * i, self.datatype, 1) for i, n in enumerate("xyz"))]
         self.point_step = 3 + 3 * size + 2

@@ -46,16 +46,19 @@ class ForeignTypes(GraspdTest):
 
     def test_points(self):
         make = self.messages
-        messages = {"own": own_message(self.frame)}
+        # An organized cloud's image tells what was seen; without it that is rendered, which moves scores a little.
+        messages = {"own": own_message(self.frame), "own in one row": own_message(self.frame.one_row())}
         for kind in (make.drake, make.bot_core, make.dimos):
             for big_endian, wide, one_row in itertools.product((False, True), repeat=3):
                 layout = {"big_endian": big_endian, "wide": wide, "one_row": one_row}
                 messages[f"{kind.__name__} {layout}"] = kind(self.frame, **layout)
         messages["bare"] = make.bare(self.frame)
         answers = self.answers(messages)
-        own = answers.pop("own")
-        self.assertGreater(len(own.handles), 0)
+        organized, one_row = answers.pop("own"), answers.pop("own in one row")
+        self.assertGreater(len(organized.handles), 0)
+        self.assertGreater(len(one_row.handles), 0)
         for name, answer in answers.items():
+            own = one_row if "'one_row': True" in name or name == "bare" else organized
             self.assertEqual(content(answer.handles), content(own.handles), name)
             self.assertEqual([getattr(answer, m) for m in OF_THE_FRAME], [getattr(own, m) for m in OF_THE_FRAME], name)
             self.assertEqual((answer.utime, answer.frame_name), (own.utime, own.frame_name), name)
