@@ -64,8 +64,10 @@ void use(std::pmr::memory_resource& memory, const std::vector<std::size_t>& size
   }
   for (std::size_t k = 0; k < blocks.size(); ++k) {
     const auto* bytes = static_cast<const unsigned char*>(blocks[k].first);
-    const auto expected = static_cast<unsigned char>(k + 1);
-    EXPECT_TRUE(std::all_of(bytes, bytes + blocks[k].second, [&](unsigned char b) { return b == expected; }));
+    if (blocks[k].second == 0) continue;
+    EXPECT_EQ(bytes[0], static_cast<unsigned char>(k + 1));
+    // All bytes equal the one after: one call, which sanitizers look at as a whole.
+    EXPECT_EQ(std::memcmp(bytes, bytes + 1, blocks[k].second - 1), 0);
   }
   std::reverse(blocks.begin(), blocks.begin() + static_cast<std::ptrdiff_t>(blocks.size() / 2));
   for (const auto& [place, size] : blocks) memory.deallocate(place, size, 16);
