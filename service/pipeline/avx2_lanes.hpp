@@ -54,6 +54,12 @@ GRASPD_AVX2 inline __m256i load(const void* from) {
   return _mm256_loadu_si256(static_cast<const __m256i*>(from));
 }
 
+/// All bits set in the lanes of the next eight that hold something, of so many left.
+GRASPD_AVX2 inline __m256 lanes_left(std::size_t n) {
+  const __m256i lane = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+  return _mm256_castsi256_ps(_mm256_cmpgt_epi32(_mm256_set1_epi32(static_cast<int>(n)), lane));
+}
+
 GRASPD_AVX2 inline __m256i floor_to_int(__m256 v) {
   const __m256i truncated = _mm256_cvttps_epi32(v);
   const __m256 above = _mm256_cmp_ps(_mm256_cvtepi32_ps(truncated), v, _CMP_GT_OQ);

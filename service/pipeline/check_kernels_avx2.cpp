@@ -49,13 +49,11 @@ GRASPD_AVX2 CircleSums sum_circle(const CircleWeights& weights, const float* xs,
   const __m256 cx = _mm256_set1_ps(weights.x), cy = _mm256_set1_ps(weights.y),
                radius = _mm256_set1_ps(weights.radius), per_scale = _mm256_set1_ps(weights.per_scale),
                one = _mm256_set1_ps(1);
-  const __m256i lane = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
   __m256d sum[9];
   for (__m256d& s : sum) s = _mm256_setzero_pd();
   for (std::size_t i = 0; i < n; i += 8) {
     // Points beyond the last are zero and have no weight.
-    const __m256 valid =
-        _mm256_castsi256_ps(_mm256_cmpgt_epi32(_mm256_set1_epi32(static_cast<int>(n - i)), lane));
+    const __m256 valid = lanes_left(n - i);
     const __m256 x = _mm256_and_ps(valid, _mm256_loadu_ps(xs + i)),
                  y = _mm256_and_ps(valid, _mm256_loadu_ps(ys + i));
     const __m256 dx = _mm256_sub_ps(x, cx), dy = _mm256_sub_ps(y, cy);

@@ -216,16 +216,14 @@ float DepthMap::ray_area(const Eigen::Vector3f& p) const {
   return depth * depth * point_area_;
 }
 
-std::int32_t DepthMap::hider_at(std::int64_t pixel, float depth, float margin_m) const {
-  if (pixel < 0) return kFree;
-  const auto at = static_cast<std::size_t>(pixel);
-  return depth_[at] > 0 && depth_[at] < depth - margin_m ? point_[at] : kFree;
-}
-
 std::int32_t DepthMap::hider(const Eigen::Vector3f& p, float margin_m) const {
-  if (depth_.empty()) return kFree;
-  const Eigen::Vector3f q = to_view_ * (p - viewpoint_);
-  return hider_at(pixel(column(q.x(), q.z()), row(q.y(), q.z()), q.z()), q.z(), margin_m);
+  Probes places;
+  std::fill_n(places.x, kProbes, p.x());
+  std::fill_n(places.y, kProbes, p.y());
+  std::fill_n(places.z, kProbes, p.z());
+  std::int32_t hiders[kProbes];
+  find_hiders(places, margin_m, hiders);
+  return hiders[0];
 }
 
 void DepthMap::find_hiders(const Probes& places, float margin_m, std::int32_t (&hiders)[kProbes]) const {

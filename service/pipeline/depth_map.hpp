@@ -46,7 +46,6 @@ class DepthMap {
                            row < static_cast<float>(height_);
     return is_inside ? std::int64_t{static_cast<int>(row)} * width_ + static_cast<int>(column) : -1;
   }
-  [[nodiscard]] std::int32_t hider_at(std::int64_t pixel, float depth, float margin_m) const;
 
   Eigen::Vector3f viewpoint_;
   Eigen::Matrix3f to_view_;  // rows: right, down, forward

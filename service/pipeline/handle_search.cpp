@@ -106,12 +106,10 @@ HandleSearch::HandleSearch(const SearchInput& input, const Gripper& gripper, con
 
 std::pmr::vector<HandleSearch::Seed> HandleSearch::spread_seeds(
     const std::pmr::vector<std::uint32_t>& points) const {
-  PointCloud own;
-  for (const std::uint32_t i : points) own.push_back(in_.cloud.point(i));
   const PaddedPoints object(in_.cloud, points);
   std::pmr::vector<std::uint32_t> near;
   std::pmr::vector<Seed> seeds;
-  for (const std::uint32_t k : thin_out(own, config_.seed_spacing_m)) {
+  for (const std::uint32_t k : thin_out(points_at(in_.cloud, points), config_.seed_spacing_m)) {
     const std::uint32_t seed = points[k];
     if (in_.segments.of_point[seed] >= 0)
       seeds.push_back({seed, outward_directions(seed, face_normal(in_, object, seed, near))});

@@ -129,13 +129,11 @@ GRASPD_AVX2 Moments sums_of_lanes(const __m256 (&v)[9]) {
 GRASPD_AVX2 Moments sum_moments(const float (&p)[3], const float* x, const float* y, const float* z,
                                 const std::uint32_t* indices, std::size_t n) {
   const __m256 px = _mm256_set1_ps(p[0]), py = _mm256_set1_ps(p[1]), pz = _mm256_set1_ps(p[2]);
-  const __m256i lane = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
   __m256 sum[9];
   for (__m256& s : sum) s = _mm256_setzero_ps();
   for (std::size_t from = 0; from < n; from += 8) {
     const __m256i i = load(indices + from);
-    const __m256 valid =
-        _mm256_castsi256_ps(_mm256_cmpgt_epi32(_mm256_set1_epi32(static_cast<int>(n - from)), lane));
+    const __m256 valid = lanes_left(n - from);
     const auto offset = [&](const float* v, __m256 origin) GRASPD_AVX2 {
       return _mm256_and_ps(valid, _mm256_sub_ps(_mm256_i32gather_ps(v, i, sizeof(float)), origin));
     };

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/pipeline/surfaces.hpp"
 
-#include "service/pipeline/thin_out.hpp"
-
 #include <tbb/parallel_invoke.h>
 
 #include <utility>
+
+#include "service/pipeline/thin_out.hpp"
 
 namespace graspd {
 namespace {
@@ -51,14 +51,7 @@ SparseVoxels spread_thinly(const PointCloud& voxels, float spacing_m) {
   SparseVoxels sparse;
   sparse.spacing_m = spacing_m;
   sparse.voxel = thin_out(voxels, spacing_m);
-  sparse.cloud.viewpoint = voxels.viewpoint;
-  sparse.cloud.resize(sparse.voxel.size());
-  sparse.cloud.width = static_cast<int>(sparse.voxel.size());
-  for (std::size_t k = 0; k < sparse.voxel.size(); ++k) {
-    sparse.cloud.x[k] = voxels.x[sparse.voxel[k]];
-    sparse.cloud.y[k] = voxels.y[sparse.voxel[k]];
-    sparse.cloud.z[k] = voxels.z[sparse.voxel[k]];
-  }
+  sparse.cloud = points_at(voxels, sparse.voxel);
   sparse.query = BoxQuery(sparse.cloud, kQueryCell);
   return sparse;
 }
