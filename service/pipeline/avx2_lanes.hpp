@@ -60,6 +60,15 @@ GRASPD_AVX2 inline __m256 lanes_left(std::size_t n) {
   return _mm256_castsi256_ps(_mm256_cmpgt_epi32(_mm256_set1_epi32(static_cast<int>(n)), lane));
 }
 
+/// Of the eight lanes, in their order.
+GRASPD_AVX2 inline float sum_in_order(__m256 v) {
+  alignas(32) float part[8];
+  _mm256_store_ps(part, v);
+  float sum = 0;
+  for (const float p : part) sum += p;
+  return sum;
+}
+
 GRASPD_AVX2 inline __m256i floor_to_int(__m256 v) {
   const __m256i truncated = _mm256_cvttps_epi32(v);
   const __m256 above = _mm256_cmp_ps(_mm256_cvtepi32_ps(truncated), v, _CMP_GT_OQ);
@@ -68,6 +77,7 @@ GRASPD_AVX2 inline __m256i floor_to_int(__m256 v) {
 
 // What a check does with the points that it gathered.
 CircleSums sum_circle(const CircleWeights& weights, const float* xs, const float* ys, std::size_t n);
+ProfileSums sum_profile(const ProfileWeights& weights, const FacePoints& face);
 void find_hiders(const ViewImage& image, const Probes& places, float margin_m,
                  std::int32_t (&hiders)[kProbes]);
 void tag_band(const BandTags& tags, const BandPoints& points, std::int32_t* own, std::int32_t* marks);

@@ -68,6 +68,44 @@ GRASPD_AVX2 CircleSums sum_circle(const CircleWeights& weights, const float* xs,
   return {total[0], total[1], total[2], total[3], total[4], total[5], total[6], total[7], total[8]};
 }
 
+GRASPD_AVX2 ProfileSums sum_profile(const ProfileWeights& weights, const FacePoints& face) {
+  __m256 c[4], sum[13];
+  for (int k = 0; k < 4; ++k) c[k] = _mm256_set1_ps(weights.c[k]);
+  for (__m256& v : sum) v = _mm256_setzero_ps();
+  const __m256 per_scale = _mm256_set1_ps(weights.per_scale), one = _mm256_set1_ps(1);
+  for (std::size_t i = 0; i < face.size; i += 8) {
+    // Points beyond the last are zero and have no weight.
+    const __m256 valid = lanes_left(face.size - i);
+    const auto part = [&](const float* v)
+                          GRASPD_AVX2 { return _mm256_and_ps(valid, _mm256_loadu_ps(v + i)); };
+    const __m256 s = part(face.s), a = part(face.a), z = part(face.z), ss = _mm256_mul_ps(s, s);
+    const __m256 line = _mm256_add_ps(c[0], _mm256_mul_ps(c[1], s)),
+                 rest = _mm256_add_ps(_mm256_mul_ps(c[2], ss), _mm256_mul_ps(c[3], a));
+    const __m256 e = _mm256_mul_ps(_mm256_sub_ps(_mm256_add_ps(line, rest), z), per_scale);
+    const __m256 w = _mm256_and_ps(valid, _mm256_div_ps(one, _mm256_add_ps(one, _mm256_mul_ps(e, e))));
+    const __m256 ws = _mm256_mul_ps(w, s), wss = _mm256_mul_ps(w, ss), wa = _mm256_mul_ps(w, a),
+                 wz = _mm256_mul_ps(w, z);
+    const __m256 terms[13] = {w,
+                              ws,
+                              wss,
+                              _mm256_mul_ps(wss, s),
+                              _mm256_mul_ps(wss, ss),
+                              wa,
+                              _mm256_mul_ps(wa, s),
+                              _mm256_mul_ps(wa, ss),
+                              _mm256_mul_ps(wa, a),
+                              wz,
+                              _mm256_mul_ps(wz, s),
+                              _mm256_mul_ps(wz, ss),
+                              _mm256_mul_ps(wz, a)};
+    for (int k = 0; k < 13; ++k) sum[k] = _mm256_add_ps(sum[k], terms[k]);
+  }
+  float total[13];
+  for (int k = 0; k < 13; ++k) total[k] = sum_in_order(sum[k]);
+  return {total[0], total[1], total[2], total[3],  total[4],  total[5], total[6],
+          total[7], total[8], total[9], total[10], total[11], total[12]};
+}
+
 GRASPD_AVX2 void find_hiders(const ViewImage& image, const Probes& places, float margin_m,
                              std::int32_t (&hiders)[kProbes]) {
   const __m256 dx = _mm256_sub_ps(_mm256_loadu_ps(places.x), _mm256_set1_ps(image.origin[0])),
@@ -102,8 +140,9 @@ GRASPD_AVX2 void tag_band(const BandTags& tags, const BandPoints& points, std::i
                 stride = _mm256_set1_epi32(static_cast<int>(tags.stride()));
   std::size_t k = 0;
   for (; k + 8 <= points.size; k += 8) {
-    const __m256i of_point =
-        _mm256_i32gather_epi32(tags.object_of_point, load(points.index + k), sizeof(std::int32_t));
+    const __m256i voxel = _mm256_i32gather_epi32(reinterpret_cast<const int*>(tags.voxel_of_point),
+                                                 load(points.index + k), sizeof(std::int32_t));
+    const __m256i of_point = _mm256_i32gather_epi32(tags.object_of_voxel, voxel, sizeof(std::int32_t));
     const __m256i same = _mm256_cmpeq_epi32(of_point, object);
     const __m256i is_own = _mm256_srli_epi32(same, 31);
     const __m256i b = floor_to_int(_mm256_div_ps(_mm256_sub_ps(_mm256_loadu_ps(points.f + k), first), bin));

@@ -5,9 +5,10 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <memory_resource>
 #include <numbers>
-#include <vector>
+
+#include "service/pipeline/point_kernels.hpp"
+#include "service/pipeline/raw_vector.hpp"
 
 namespace graspd {
 namespace {
@@ -26,32 +27,41 @@ constexpr float kMaxFlatTilt = 0.40f;  // tilt of a flat face that is carried on
 constexpr float kMaxDoubt = 0.006f;    // between two guesses at where a round face ends [m]
 constexpr float kMaxUnseenBulge = 0.012f;  // beyond an edge beside seen space [m]
 
-/// A point of the face near the end: distance inwards from the end, depth, and place along the major axis.
-struct FacePoint {
-  float in, z, a;
+/// Points of the face near the end: distance inwards from the end, depth, and place along the major axis.
+/// With room for what the kernels read beyond the points.
+struct Face {
+  RawVector<float> in, z, a;
+  std::size_t size = 0;
+
+  explicit Face(std::size_t most)
+      : in(most + kPointPadding), z(most + kPointPadding), a(most + kPointPadding) {}
+  void add(float distance, float depth, float along) {
+    in[size] = distance;
+    z[size] = depth;
+    a[size++] = along;
+  }
 };
 
 /// z = c0 + c1 in + c2 in^2 (+ c3 a) by iteratively reweighted least squares (Cauchy weights, scale 2 mm). A
 /// face may be tilted along the major axis, too, by more than what its profile is asked for. Lengths are
 /// scaled to keep the normal equations well conditioned.
-Eigen::Vector3f fit_profile(const std::pmr::vector<FacePoint>& face, float span) {
+Eigen::Vector3f fit_profile(Face face, float span) {
+  constexpr float kScale = 0.002f;
+  for (std::size_t i = 0; i < face.size; ++i) {
+    face.in[i] /= span;
+    face.a[i] /= span;
+  }
   Eigen::Vector4f c = Eigen::Vector4f::Zero();
-  std::pmr::vector<float> weight(face.size(), 1.0f);
   for (int round = 0; round < 5; ++round) {
+    const ProfileSums s =
+        point_kernels().sum_profile({{c[0], c[1], c[2], c[3]}, round == 0 ? 0 : 1 / kScale},
+                                    {face.in.data(), face.a.data(), face.z.data(), face.size});
     Eigen::Matrix4f A = Eigen::Matrix4f::Identity() * 1e-6f;
-    Eigen::Vector4f b = Eigen::Vector4f::Zero();
-    for (std::size_t i = 0; i < face.size(); ++i) {
-      const float s = face[i].in / span;
-      const Eigen::Vector4f row(1, s, s * s, face[i].a / span);
-      A += weight[i] * row * row.transpose();
-      b += weight[i] * face[i].z * row;
-    }
-    c = A.ldlt().solve(b);
-    for (std::size_t i = 0; i < face.size(); ++i) {
-      const float s = face[i].in / span;
-      const float e = (c[0] + c[1] * s + c[2] * s * s + c[3] * face[i].a / span - face[i].z) / 0.002f;
-      weight[i] = 1 / (1 + e * e);
-    }
+    A += Eigen::Matrix4f{{s.n, s.s, s.ss, s.a},
+                         {s.s, s.ss, s.sss, s.as},
+                         {s.ss, s.sss, s.ssss, s.ass},
+                         {s.a, s.as, s.ass, s.aa}};
+    c = A.ldlt().solve(Eigen::Vector4f(s.z, s.zs, s.zss, s.za));
   }
   return {c[0], c[1] / span, c[2] / (span * span)};
 }
@@ -59,11 +69,11 @@ Eigen::Vector3f fit_profile(const std::pmr::vector<FacePoint>& face, float span)
 struct EndPoints {
   int near = 0, facing = 0;
   Eigen::Vector3f facing_sum = Eigen::Vector3f::Zero();  // of the normals
-  std::pmr::vector<FacePoint> face;
+  Face face;
 };
 
 EndPoints collect_end(const ContactInput& in, float side, float end_m, float min_upright) {
-  EndPoints out;
+  EndPoints out{.face = Face(in.between.size())};
   const float length = std::min(kFaceLength, 0.7f * in.extent_m);
   const Eigen::Vector3f jaw = side * in.rotation.col(1), approach = in.rotation.col(2);
   for (const std::uint32_t k : in.between) {
@@ -78,13 +88,13 @@ EndPoints collect_end(const ContactInput& in, float side, float end_m, float min
         out.facing_sum += n;
       }
     }
-    if (-approach.dot(n) >= min_upright) out.face.push_back({inwards, in.local.z[k], in.local.a[k]});
+    if (-approach.dot(n) >= min_upright) out.face.add(inwards, in.local.z[k], in.local.a[k]);
   }
   return out;
 }
 
-bool too_small(const ContactInput& in, const std::pmr::vector<FacePoint>& face) {
-  return face.size() < 8 || static_cast<float>(face.size()) * in.area_per_point_m2 < kMinFaceArea;
+bool too_small(const ContactInput& in, const Face& face) {
+  return face.size < 8 || static_cast<float>(face.size) * in.area_per_point_m2 < kMinFaceArea;
 }
 
 /// Whether something nearer hides what comes after the end, which then is no edge of the object.
@@ -127,10 +137,9 @@ bool slips_off(const ContactInput& in) {
 }
 
 /// A face whose wall is out of sight: which way it goes on decides.
-Contact edge_contact(const ContactInput& in, float side, float end_m, float hidden_share,
-                     const std::pmr::vector<FacePoint>& face) {
+Contact edge_contact(const ContactInput& in, float side, float end_m, float hidden_share, const Face& face) {
   float span = 1e-3f;
-  for (const FacePoint& f : face) span = std::max(span, f.in);
+  for (std::size_t i = 0; i < face.size; ++i) span = std::max(span, face.in[i]);
   const Eigen::Vector3f c = fit_profile(face, span);
   // Tilts of the face at the end, at the far side of the fitted part and between: positive falls away towards
   // the end.

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/pipeline/find_handles.hpp"
 
-#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -31,29 +30,33 @@ std::pmr::vector<SegmentReport> start_reports(const Surfaces& surfaces) {
   return reports;
 }
 
-/// 1 for each whole of several objects of which one has no handle.
-std::pmr::vector<std::uint8_t> wholes_to_try(const Surfaces& surfaces,
-                                             const std::pmr::vector<FoundHandle>& handles) {
+/// 1 for each segment of objects without a handle that are part of a whole of several.
+std::pmr::vector<std::uint8_t> segments_to_try(const Surfaces& surfaces,
+                                               const std::pmr::vector<FoundHandle>& handles) {
   const std::pmr::vector<std::int32_t>&object = surfaces.objects.of_segment,
         &whole = surfaces.wholes.of_segment;
   std::pmr::vector<std::uint8_t> has_handle(static_cast<std::size_t>(surfaces.objects.num_objects));
   for (const FoundHandle& found : handles) has_handle[static_cast<std::size_t>(found.ranked.object)] = 1;
   std::pmr::vector<std::int32_t> first(static_cast<std::size_t>(surfaces.wholes.num_objects), -1);
-  std::pmr::vector<std::uint8_t> several(first.size()), lacking(first.size());
+  std::pmr::vector<std::uint8_t> several(first.size()), wanted(object.size());
   for (std::size_t s = 0; s < object.size(); ++s) {
     const auto w = static_cast<std::size_t>(whole[s]);
     if (first[w] < 0) first[w] = object[s];
     if (object[s] != first[w]) several[w] = 1;
-    if (!has_handle[static_cast<std::size_t>(object[s])]) lacking[w] = 1;
   }
-  for (std::size_t w = 0; w < several.size(); ++w) several[w] &= lacking[w];
-  return several;
+  for (std::size_t s = 0; s < object.size(); ++s)
+    wanted[s] = several[static_cast<std::size_t>(whole[s])] != 0 &&
+                        has_handle[static_cast<std::size_t>(object[s])] == 0
+                    ? 1
+                    : 0;
+  return wanted;
 }
 
 /// Looks at how steady handles are.
 class Settler {
  public:
-  Settler(const Gripper& gripper, const HandleCheckConfig& config) : gripper_(gripper), config_(config) {}
+  Settler(const Gripper& gripper, const HandleCheckConfig& config, CheckBuffersOfThreads& buffers)
+      : gripper_(gripper), config_(config), buffers_(buffers) {}
 
   /// The score with the steadiness in it.
   float final_score(const FoundHandle& found) {
@@ -66,7 +69,7 @@ class Settler {
  private:
   const Gripper& gripper_;
   const HandleCheckConfig& config_;
-  tbb::enumerable_thread_specific<CheckBuffers, std::pmr::polymorphic_allocator<CheckBuffers>> buffers_;
+  CheckBuffersOfThreads& buffers_;
 };
 
 /// Adds the best handle of a whole on each of its parts that has none, as that part's.
@@ -93,21 +96,22 @@ void add_for_parts_without(const Surfaces& surfaces, std::pmr::vector<FoundHandl
 FoundHandles find_handles(const PointCloud& cloud, const PointIndex& index, const Surfaces& surfaces,
                           const Gripper& gripper, const DetectConfig& config) {
   const CheckedScene scene{cloud, index, surfaces};
-  Settler settler(gripper, config.check);
+  CheckBuffersOfThreads buffers;
+  Settler settler(gripper, config.check, buffers);
   SearchResult result;
   result.segments = start_reports(surfaces);
-  const std::pmr::vector<std::uint8_t> all(static_cast<std::size_t>(surfaces.objects.num_objects), 1);
+  const std::pmr::vector<std::uint8_t> all(surfaces.segments.list.size(), 1);
   const GuessSearch search(scene, surfaces.objects, gripper, config);
-  search.run(all, result);
+  search.run(all, buffers, result);
   std::optional<GuessSearch> of_wholes;
-  const std::pmr::vector<std::uint8_t> wholes = wholes_to_try(surfaces, result.handles);
-  if (std::any_of(wholes.begin(), wholes.end(), [](std::uint8_t w) { return w != 0; })) {
+  const std::pmr::vector<std::uint8_t> left = segments_to_try(surfaces, result.handles);
+  if (std::any_of(left.begin(), left.end(), [](std::uint8_t wanted) { return wanted != 0; })) {
     std::pmr::vector<FoundHandle> found = std::exchange(result.handles, {});
-    of_wholes.emplace(scene, surfaces.wholes, gripper, config).run(wholes, result);
+    of_wholes.emplace(scene, surfaces.wholes, gripper, config).run(left, buffers, result);
     add_for_parts_without(surfaces, std::exchange(result.handles, {}), settler, found);
     result.handles = std::move(found);
   }
-  for (FoundHandle& first : first_handles(result.handles, surfaces, gripper, config.check))
+  for (FoundHandle& first : first_handles(result.handles, surfaces, gripper, config.check, buffers))
     result.handles.push_back(std::move(first));
   std::pmr::vector<RankedHandle> ranked;
   ranked.reserve(result.handles.size());

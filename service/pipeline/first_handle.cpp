@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/pipeline/first_handle.hpp"
 
-#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -165,25 +164,20 @@ FoundHandle Chooser::first(std::pmr::vector<FoundHandle> found) const {
 
 std::pmr::vector<FoundHandle> first_handles(const std::pmr::vector<FoundHandle>& found,
                                             const Surfaces& surfaces, const Gripper& gripper,
-                                            const HandleCheckConfig& config) {
+                                            const HandleCheckConfig& config, CheckBuffersOfThreads& buffers) {
   std::pmr::map<int, std::pmr::vector<FoundHandle>> by_object;
-  std::pmr::map<const Objects*, std::pmr::vector<std::pmr::vector<std::uint32_t>>> points;
-  for (const FoundHandle& handle : found) {
-    by_object[handle.ranked.object].push_back(handle);
-    if (!points.contains(handle.guess)) points[handle.guess] = points_by_object(*handle.guess);
-  }
+  for (const FoundHandle& handle : found) by_object[handle.ranked.object].push_back(handle);
   std::pmr::vector<std::pmr::vector<FoundHandle>> of_object;
   std::pmr::vector<FoundHandle> first;
   for (auto& [object, handles] : by_object) {
     first.push_back(handles.front());
     of_object.push_back(std::move(handles));
   }
-  tbb::enumerable_thread_specific<CheckBuffers, std::pmr::polymorphic_allocator<CheckBuffers>> buffers;
   tbb::parallel_for(std::size_t{0}, first.size(), [&](std::size_t k) {
     const FoundHandle& any = of_object[k].front();
     const auto object = static_cast<std::size_t>(any.candidate_object);
-    const ObjectShape shape(surfaces, points.at(any.guess)[object], any.candidate_object,
-                            any.guess->center[object]);
+    const ObjectShape shape(surfaces, any.guess->points.of(object), any.candidate_object,
+                            any.guess->objects.center[object]);
     const Chooser chooser(any, shape, surfaces.support, gripper, config, buffers.local());
     first[k] = chooser.first(of_object[k]);
   });

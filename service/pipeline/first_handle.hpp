@@ -16,6 +16,7 @@ namespace graspd {
 /// middle. The best score alone would jump from frame to frame between places that are equally good.
 [[nodiscard]] std::pmr::vector<FoundHandle> first_handles(const std::pmr::vector<FoundHandle>& found,
                                                           const Surfaces& surfaces, const Gripper& gripper,
-                                                          const HandleCheckConfig& config);
+                                                          const HandleCheckConfig& config,
+                                                          CheckBuffersOfThreads& buffers);
 
 }  // namespace graspd

@@ -2,12 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/pipeline/guess_search.hpp"
 
-#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numeric>
 
@@ -21,13 +19,18 @@ constexpr float kPointCell = 0.015f;  // of the grid for box queries [m]
 constexpr int kSparseTolerance = 2, kPointTolerance = 4;
 constexpr int kMinSparse = 6, kMinPoints = 12;  // of the object between the jaws
 
+// The thorough look is taken at a few of the candidates of an object that passed the first look, the most
+// promising ones first, and at a few more as long as it has few handles: the few that are published are among
+// them.
+constexpr std::size_t kAtOnce = 6, kEnoughHandles = 4, kMostOfAnObject = 18;
+
 using Results = std::pmr::vector<CheckResult>;
 
 /// outlines: a first look, which refuses at little cost what is much too wide; null: the thorough one.
 Results check_all(const SceneView& scene, const Gripper& gripper, const HandleCheckConfig& config,
-                  const std::pmr::vector<Candidate>& candidates, const ObjectOutlines* outlines) {
+                  const std::pmr::vector<Candidate>& candidates, const ObjectOutlines* outlines,
+                  CheckBuffersOfThreads& buffers) {
   Results results(candidates.size());
-  tbb::enumerable_thread_specific<CheckBuffers, std::pmr::polymorphic_allocator<CheckBuffers>> buffers;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, candidates.size(), 8), [&](const auto& range) {
     CheckBuffers& own = buffers.local();
     for (std::size_t i = range.begin(); i != range.end(); ++i) {
@@ -42,18 +45,9 @@ Results check_all(const SceneView& scene, const Gripper& gripper, const HandleCh
   return results;
 }
 
-std::pmr::vector<std::int32_t> spread_to_points(const std::pmr::vector<std::int32_t>& of_voxel,
-                                                const std::pmr::vector<std::uint32_t>& voxel_of_point) {
-  std::pmr::vector<std::int32_t> of_point(voxel_of_point.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, of_point.size(), 16384), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i != range.end(); ++i) of_point[i] = of_voxel[voxel_of_point[i]];
-  });
-  return of_point;
-}
-
-FoundHandle scored(const CheckResult& result, const Objects& guess, int object, const SceneView& scene) {
+FoundHandle scored(const CheckResult& result, const Guess& guess, int object, const SceneView& scene) {
   FoundHandle found{{result.handle, object}, result.margins, &scene, &guess, object};
-  found.margins.central = centrality(result.handle, guess.center[static_cast<std::size_t>(object)]);
+  found.margins.central = centrality(result.handle, guess.objects.center[static_cast<std::size_t>(object)]);
   found.ranked.handle.score = score(found.margins);
   return found;
 }
@@ -70,58 +64,39 @@ void count(const Candidate& candidate, Failure failure, SearchResult& out) {
   ++out.failures[static_cast<std::size_t>(failure)];
 }
 
-/// The best by score of each object, ascending.
-std::pmr::vector<std::size_t> best_of_objects(const std::pmr::vector<Candidate>& candidates,
-                                              const std::pmr::vector<float>& scores, std::size_t most) {
-  std::pmr::vector<std::size_t> order(candidates.size());
+/// A candidate that passed the first look.
+struct Promising {
+  Candidate candidate;
+  float score;
+  std::size_t rank = 0;  ///< among those of its object by score, from 0
+};
+
+void set_ranks(std::pmr::vector<Promising>& all) {
+  std::pmr::vector<std::size_t> order(all.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return scores[a] != scores[b] ? scores[a] > scores[b] : a < b;
+    return all[a].score != all[b].score ? all[a].score > all[b].score : a < b;
   });
-  std::pmr::map<std::int32_t, std::size_t> taken;
-  std::erase_if(order, [&](std::size_t i) { return ++taken[candidates[i].object] > most; });
-  std::sort(order.begin(), order.end());
-  return order;
+  std::pmr::map<std::int32_t, std::size_t> seen;
+  for (const std::size_t i : order) all[i].rank = seen[all[i].candidate.object]++;
 }
 
-/// The candidates that pass in the sparse copy, the most promising ones of each object; counts those that
-/// fail.
-std::pmr::vector<Candidate> prefilter(const SceneView& sparse, const Gripper& gripper,
+/// The candidates that pass in the sparse copy; counts those that fail.
+std::pmr::vector<Promising> prefilter(const SceneView& sparse, const Gripper& gripper,
                                       const HandleCheckConfig& config,
                                       const std::pmr::vector<Candidate>& candidates,
-                                      const ObjectOutlines& outlines, SearchResult& out) {
-  constexpr std::size_t kMostOfAnObject = 12;
-  const Results coarse = check_all(sparse, gripper, config, candidates, &outlines);
-  std::pmr::vector<Candidate> passed;
-  std::pmr::vector<float> scores;
+                                      const ObjectOutlines& outlines, CheckBuffersOfThreads& buffers,
+                                      SearchResult& out) {
+  const Results coarse = check_all(sparse, gripper, config, candidates, &outlines, buffers);
+  std::pmr::vector<Promising> passed;
   passed.reserve(candidates.size());
-  scores.reserve(candidates.size());
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    if (coarse[i].failure != Failure::kNone) {
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+    if (coarse[i].failure == Failure::kNone)
+      passed.push_back({candidates[i], score(coarse[i].margins)});
+    else
       count(candidates[i], coarse[i].failure, out);
-      continue;
-    }
-    passed.push_back(candidates[i]);
-    scores.push_back(score(coarse[i].margins));
-  }
-  // A few that passed in the sparse copy hold the few that are published.
-  std::pmr::vector<Candidate> promising;
-  promising.reserve(passed.size());
-  for (const std::size_t i : best_of_objects(passed, scores, kMostOfAnObject)) promising.push_back(passed[i]);
-  return promising;
-}
-
-/// An object with this many handles takes no part in a round.
-int enough_before(SearchRound round) {
-  switch (round) {
-    case SearchRound::kSurface:
-      return std::numeric_limits<int>::max();
-    case SearchRound::kSurroundings:
-      return 6;
-    case SearchRound::kAllDirections:
-      return 1;
-  }
-  return 0;
+  set_ranks(passed);
+  return passed;
 }
 
 /// What a sparse copy measures is off by up to half its spacing at either end: it refuses only what is
@@ -148,53 +123,59 @@ PointIndex::PointIndex(const PointCloud& cloud, const ImagePixels& pixels)
 
 GuessSearch::GuessSearch(const CheckedScene& scene, const Objects& objects, const Gripper& gripper,
                          const DetectConfig& config)
-    : objects_(objects),
+    : guess_{objects, points_by_object(objects)},
       gripper_(gripper),
       config_(config),
-      object_of_point_(spread_to_points(objects.of_point, scene.surfaces.voxel_of_point)),
-      object_of_sparse_(spread_to_points(objects.of_point, scene.surfaces.sparse.voxel)),
-      outlines_(scene.surfaces.cloud, objects.of_point, objects.num_objects),
+      outlines_(scene.surfaces.cloud, guess_.points),
       coarse_check_(coarse_limits(config.check)),
       input_{scene.surfaces.cloud, scene.surfaces.normals, scene.surfaces.segments, objects,
-             scene.surfaces.support},
+             guess_.points,        scene.surfaces.support},
       sparse_{scene.surfaces.sparse.cloud,
               scene.surfaces.sparse.query,
-              object_of_sparse_,
+              objects.of_point,
               scene.surfaces.normals,
               scene.surfaces.sparse.voxel,
               scene.surfaces.support,
               scene.index.depth_map,
-              object_of_point_,
+              scene.surfaces.voxel_of_point,
               kSparseTolerance,
               kMinSparse,
               scene.surfaces.sparse.spacing_m},
       points_{scene.cloud,
               scene.index.query,
-              object_of_point_,
+              objects.of_point,
               scene.surfaces.normals,
               scene.surfaces.voxel_of_point,
               scene.surfaces.support,
               scene.index.depth_map,
-              object_of_point_,
+              scene.surfaces.voxel_of_point,
               kPointTolerance,
               kMinPoints} {}
 
-void GuessSearch::run(const std::pmr::vector<std::uint8_t>& wanted, SearchResult& out) const {
+void GuessSearch::run(const std::pmr::vector<std::uint8_t>& wanted, CheckBuffersOfThreads& buffers,
+                      SearchResult& out) const {
   const HandleSearch search(input_, gripper_, config_.search, wanted);
-  std::pmr::vector<int> handles_of_object(wanted.size());
+  const std::pmr::vector<std::uint8_t> all = objects_with_segments(guess_.objects, wanted);
+  std::pmr::vector<std::size_t> num_handles(all.size());
   for (const SearchRound round : kSearchRounds) {
-    std::pmr::vector<std::uint8_t> open = wanted;
+    std::pmr::vector<std::uint8_t> open = all;
     for (std::size_t k = 0; k < open.size(); ++k)
-      if (handles_of_object[k] >= enough_before(round)) open[k] = 0;
-    const std::pmr::vector<Candidate> left =
-        prefilter(sparse_, gripper_, coarse_check_, search.candidates(round, open), outlines_, out);
-    const Results fine = check_all(points_, gripper_, config_.check, left, nullptr);
-    for (std::size_t k = 0; k < left.size(); ++k) {
-      count(left[k], fine[k].failure, out);
-      if (fine[k].failure != Failure::kNone) continue;
-      const auto object = static_cast<std::size_t>(left[k].object);
-      out.handles.push_back(scored(fine[k], objects_, left[k].object, points_));
-      ++handles_of_object[object];
+      if (num_handles[k] > 0) open[k] = 0;
+    const std::pmr::vector<Promising> promising =
+        prefilter(sparse_, gripper_, coarse_check_, search.candidates(round, open), outlines_, buffers, out);
+    for (std::size_t rank = 0; rank < kMostOfAnObject; rank += kAtOnce) {
+      std::pmr::vector<Candidate> next;
+      for (const Promising& p : promising)
+        if (p.rank >= rank && p.rank < rank + kAtOnce &&
+            num_handles[static_cast<std::size_t>(p.candidate.object)] < kEnoughHandles)
+          next.push_back(p.candidate);
+      const Results fine = check_all(points_, gripper_, config_.check, next, nullptr, buffers);
+      for (std::size_t k = 0; k < next.size(); ++k) {
+        count(next[k], fine[k].failure, out);
+        if (fine[k].failure != Failure::kNone) continue;
+        out.handles.push_back(scored(fine[k], guess_, next[k].object, points_));
+        ++num_handles[static_cast<std::size_t>(next[k].object)];
+      }
     }
   }
 }

@@ -31,12 +31,18 @@ struct CheckedScene {
   const Surfaces& surfaces;
 };
 
+/// At what belongs together.
+struct Guess {
+  const Objects& objects;
+  ObjectPoints points;
+};
+
 /// A handle whose steadiness has not been looked at: its score is an upper bound.
 struct FoundHandle {
   RankedHandle ranked;
   HandleMargins margins;          ///< that the score was made of
   const SceneView* scene;         ///< that it was found in
-  const Objects* guess;           ///< at what belongs together, the same
+  const Guess* guess;             ///< the same
   std::int32_t candidate_object;  ///< its object there
 };
 
@@ -58,14 +64,14 @@ class GuessSearch {
   GuessSearch(const CheckedScene& scene, const Objects& objects, const Gripper& gripper,
               const DetectConfig& config);
 
-  /// wanted: 1 for each object to search. Adds to out, which has a report for each segment.
-  void run(const std::pmr::vector<std::uint8_t>& wanted, SearchResult& out) const;
+  /// wanted: 1 for each segment to search. Adds to out, which has a report for each segment.
+  void run(const std::pmr::vector<std::uint8_t>& wanted, CheckBuffersOfThreads& buffers,
+           SearchResult& out) const;
 
  private:
-  const Objects& objects_;
+  Guess guess_;
   const Gripper& gripper_;
   const DetectConfig& config_;
-  std::pmr::vector<std::int32_t> object_of_point_, object_of_sparse_;
   ObjectOutlines outlines_;
   HandleCheckConfig coarse_check_;
   SearchInput input_;

@@ -225,7 +225,8 @@ float Check::hidden_share(float f0, float f1, float z0, float z1, bool by_others
       for (const std::int32_t hider : hiders) {
         ++samples;
         if (hider == DepthMap::kFree) continue;
-        const bool by_own = scene_.depth_map_object[static_cast<std::size_t>(hider)] == candidate_.object;
+        const std::uint32_t voxel = scene_.depth_map_voxel[static_cast<std::size_t>(hider)];
+        const bool by_own = scene_.object_of_voxel[voxel] == candidate_.object;
         hidden += by_others && by_own ? 0 : 1;
       }
     }
@@ -285,8 +286,9 @@ Failure Check::check_contacts() {
                            radians(config_.max_wall_angle_deg),
                            fit_circle(buffers_.profile, kMaxRadius)};
   const Contact low = find_contact(input, -1, end_[0], finger_hidden_share(0, false));
+  if (low.kind == ContactKind::kNone) return Failure::kContact;
   const Contact high = find_contact(input, 1, end_[1], finger_hidden_share(1, false));
-  if (low.kind == ContactKind::kNone || high.kind == ContactKind::kNone) return Failure::kContact;
+  if (high.kind == ContactKind::kNone) return Failure::kContact;
   const Eigen::Vector3f squared = squared_axis(low, high, input.circle.has_value());
   margins_.contact = {low.kind, high.kind};
   squared_ = handle_.rotation * squared;

@@ -4,6 +4,8 @@
 // cloud, the support, the shape between the jaws, what each jaw would touch, and what the sensor has not
 // seen.
 #pragma once
+#include <tbb/enumerable_thread_specific.h>
+
 #include <array>
 #include <cstdint>
 #include <memory_resource>
@@ -106,6 +108,10 @@ struct CheckBuffers {
   std::pmr::vector<float> depths, widths;    ///< room for one value a point and the kernels' padding
   std::pmr::vector<Eigen::Vector2f> profile;
 };
+
+/// Those of each thread. A check lends them to nobody else: it splits no work.
+using CheckBuffersOfThreads =
+    tbb::enumerable_thread_specific<CheckBuffers, std::pmr::polymorphic_allocator<CheckBuffers>>;
 
 /// Fits position and width to what is between the jaws, then checks. A pure function of its arguments
 /// (buffers aside).

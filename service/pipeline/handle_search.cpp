@@ -42,26 +42,26 @@ Eigen::Matrix3f gripper_axes(const Eigen::Vector3f& outward, const Eigen::Vector
 Eigen::Vector3f rectangle_axis(const PointCloud& cloud, const Segment& segment) {
   constexpr int kAngles = 36;
   constexpr std::size_t kMaxPoints = 400;
-  std::pmr::vector<float> x, y;
+  std::array<float, 2 * kMaxPoints> x, y, u, v;  // a step is at least half of what it would have to be
+  std::size_t n = 0;
   const std::size_t step = std::max<std::size_t>(1, segment.points.size() / kMaxPoints);
   for (std::size_t k = 0; k < segment.points.size(); k += step) {
     const Eigen::Vector3f d = cloud.point(segment.points[k]) - segment.centroid;
-    x.push_back(d.dot(segment.major));
-    y.push_back(d.dot(segment.minor));
+    x[n] = d.dot(segment.major);
+    y[n++] = d.dot(segment.minor);
   }
   float best_area = std::numeric_limits<float>::infinity();
   Eigen::Vector3f best = segment.major;
   for (int i = 0; i < kAngles; ++i) {
     const float angle = std::numbers::pi_v<float> / 2 * static_cast<float>(i) / kAngles;
     const float c = std::cos(angle), s = std::sin(angle);
-    float low_u = 1e9f, high_u = -1e9f, low_v = 1e9f, high_v = -1e9f;
-    for (std::size_t k = 0; k < x.size(); ++k) {
-      const float u = c * x[k] + s * y[k], v = c * y[k] - s * x[k];
-      low_u = std::min(low_u, u);
-      high_u = std::max(high_u, u);
-      low_v = std::min(low_v, v);
-      high_v = std::max(high_v, v);
+    for (std::size_t k = 0; k < n; ++k) {
+      u[k] = c * x[k] + s * y[k];
+      v[k] = c * y[k] - s * x[k];
     }
+    float low_u = 1e9f, high_u = -1e9f, low_v = 1e9f, high_v = -1e9f;
+    point_kernels().extend_bounds(u.data(), n, low_u, high_u);
+    point_kernels().extend_bounds(v.data(), n, low_v, high_v);
     const float area = (high_u - low_u) * (high_v - low_v);
     if (area >= best_area) continue;
     best_area = area;
@@ -88,6 +88,7 @@ Eigen::Vector3f face_normal(const SearchInput& in, const PaddedPoints& object, s
 HandleSearch::HandleSearch(const SearchInput& input, const Gripper& gripper, const HandleSearchConfig& config,
                            const std::pmr::vector<std::uint8_t>& wanted)
     : in_(input),
+      wanted_(wanted),
       gripper_(gripper),
       config_(config),
       max_cosine_(std::cos(config.distinct_angle_deg * std::numbers::pi_v<float> / 180)),
@@ -95,23 +96,22 @@ HandleSearch::HandleSearch(const SearchInput& input, const Gripper& gripper, con
       seeds_(static_cast<std::size_t>(input.objects.num_objects)) {
   if (!config.seeds) return;
   tbb::parallel_for(std::size_t{0}, rectangle_axes_.size(), [&](std::size_t s) {
-    if (wanted[static_cast<std::size_t>(in_.objects.of_segment[s])])
-      rectangle_axes_[s] = rectangle_axis(in_.cloud, in_.segments.list[s]);
+    if (wanted_[s] != 0) rectangle_axes_[s] = rectangle_axis(in_.cloud, in_.segments.list[s]);
   });
-  const std::pmr::vector<std::pmr::vector<std::uint32_t>> points = points_by_object(in_.objects);
-  tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t k) {
-    if (wanted[k]) seeds_[k] = spread_seeds(points[k]);
+  const std::pmr::vector<std::uint8_t> open = objects_with_segments(in_.objects, wanted_);
+  tbb::parallel_for(std::size_t{0}, seeds_.size(), [&](std::size_t k) {
+    if (open[k] != 0) seeds_[k] = spread_seeds(in_.object_points.of(k));
   });
 }
 
-std::pmr::vector<HandleSearch::Seed> HandleSearch::spread_seeds(
-    const std::pmr::vector<std::uint32_t>& points) const {
+std::pmr::vector<HandleSearch::Seed> HandleSearch::spread_seeds(std::span<const std::uint32_t> points) const {
   const PaddedPoints object(in_.cloud, points);
   std::pmr::vector<std::uint32_t> near;
   std::pmr::vector<Seed> seeds;
   for (const std::uint32_t k : thin_out(points_at(in_.cloud, points), config_.seed_spacing_m)) {
     const std::uint32_t seed = points[k];
-    if (in_.segments.of_point[seed] >= 0)
+    const std::int32_t s = in_.segments.of_point[seed];
+    if (s >= 0 && wanted_[static_cast<std::size_t>(s)] != 0)
       seeds.push_back({seed, outward_directions(seed, face_normal(in_, object, seed, near))});
   }
   return seeds;
@@ -216,16 +216,22 @@ void HandleSearch::add_seeds(std::size_t object, SearchRound round, std::pmr::ve
 }
 
 std::pmr::vector<Candidate> HandleSearch::candidates(SearchRound round,
-                                                     const std::pmr::vector<std::uint8_t>& wanted) const {
-  std::pmr::vector<Candidate> candidates;
-  if (config_.bands && round == SearchRound::kSurface)
-    for (std::size_t s = 0; s < in_.segments.list.size(); ++s) {
-      if (!wanted[static_cast<std::size_t>(in_.objects.of_segment[s])]) continue;
-      add_bands(s, in_.segments.list[s].major, candidates);
-      add_bands(s, in_.segments.list[s].minor, candidates);
+                                                     const std::pmr::vector<std::uint8_t>& open) const {
+  // Of the segments, then of the objects.
+  const std::size_t num_segments = in_.segments.list.size();
+  std::pmr::vector<std::pmr::vector<Candidate>> parts(num_segments + seeds_.size());
+  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t k) {
+    if (k >= num_segments) {
+      if (const std::size_t object = k - num_segments; open[object] != 0) add_seeds(object, round, parts[k]);
+    } else if (config_.bands && round == SearchRound::kSurface && wanted_[k] != 0 &&
+               open[static_cast<std::size_t>(in_.objects.of_segment[k])] != 0) {
+      add_bands(k, in_.segments.list[k].major, parts[k]);
+      add_bands(k, in_.segments.list[k].minor, parts[k]);
     }
-  for (std::size_t object = 0; object < seeds_.size(); ++object)
-    if (wanted[object]) add_seeds(object, round, candidates);
+  });
+  std::pmr::vector<Candidate> candidates;
+  for (const std::pmr::vector<Candidate>& part : parts)
+    candidates.insert(candidates.end(), part.begin(), part.end());
   return candidates;
 }
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory_resource>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "service/pipeline/handle_check.hpp"
@@ -45,6 +46,7 @@ struct SearchInput {
   const Normals& normals;
   const Segments& segments;
   const Objects& objects;
+  const ObjectPoints& object_points;
   const std::optional<Support>& support;
 };
 
@@ -56,13 +58,13 @@ inline constexpr std::array kSearchRounds{SearchRound::kSurface, SearchRound::kS
 
 class HandleSearch {
  public:
-  /// input, gripper and config must outlive the search. wanted: 1 for each object that may be asked for.
+  /// All must outlive the search. wanted: 1 for each segment that candidates are asked for.
   HandleSearch(const SearchInput& input, const Gripper& gripper, const HandleSearchConfig& config,
                const std::pmr::vector<std::uint8_t>& wanted);
 
-  /// wanted: 1 for each object that candidates are asked for, one of those that may be.
+  /// open: 1 for each object that candidates are asked for, on those of its segments that are wanted.
   [[nodiscard]] std::pmr::vector<Candidate> candidates(SearchRound round,
-                                                       const std::pmr::vector<std::uint8_t>& wanted) const;
+                                                       const std::pmr::vector<std::uint8_t>& open) const;
 
  private:
   using Directions = std::pmr::vector<Eigen::Vector3f>;
@@ -70,7 +72,8 @@ class HandleSearch {
     std::uint32_t point;
     Directions outward;  // opposite to the approaches worth trying, the best first
   };
-  [[nodiscard]] std::pmr::vector<Seed> spread_seeds(const std::pmr::vector<std::uint32_t>& points) const;
+  /// On the wanted segments.
+  [[nodiscard]] std::pmr::vector<Seed> spread_seeds(std::span<const std::uint32_t> points) const;
   /// n: of the face that the seed is on.
   [[nodiscard]] Directions outward_directions(std::uint32_t seed, const Eigen::Vector3f& n) const;
   [[nodiscard]] Directions major_axes(std::size_t segment, const Eigen::Vector3f& outward,
@@ -80,6 +83,7 @@ class HandleSearch {
   void add_seeds(std::size_t object, SearchRound round, std::pmr::vector<Candidate>& out) const;
 
   const SearchInput& in_;
+  const std::pmr::vector<std::uint8_t>& wanted_;
   const Gripper& gripper_;
   const HandleSearchConfig& config_;
   float max_cosine_;                                // between directions that are distinct

@@ -16,17 +16,14 @@ constexpr float kSpacing = 0.008f;  // between the points that stand for the obj
 
 }  // namespace
 
-ObjectOutlines::ObjectOutlines(const PointCloud& cloud, const std::pmr::vector<std::int32_t>& object_of_point,
-                               int num_objects)
-    : objects_(static_cast<std::size_t>(num_objects)) {
-  std::pmr::vector<PointCloud> all(objects_.size());
-  for (std::size_t i = 0; i < cloud.size(); ++i)
-    if (object_of_point[i] >= 0) all[static_cast<std::size_t>(object_of_point[i])].push_back(cloud.point(i));
-  tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t k) {
-    const CellOrder order = order_by_cell(all[k], kSpacing);
-    std::pmr::vector<std::uint32_t> first;
-    for (std::size_t c = 0; c < order.num_cells(); ++c) first.push_back(order.cell(c).front());
-    objects_[k] = PaddedPoints(all[k], first);
+ObjectOutlines::ObjectOutlines(const PointCloud& cloud, const ObjectPoints& points)
+    : objects_(points.starts.size() - 1) {
+  tbb::parallel_for(std::size_t{0}, objects_.size(), [&](std::size_t k) {
+    const PointCloud object = points_at(cloud, points.of(k));
+    const CellOrder order = order_by_cell(object, kSpacing);
+    std::pmr::vector<std::uint32_t> first(order.num_cells());
+    for (std::size_t c = 0; c < first.size(); ++c) first[c] = order.cell(c).front();
+    objects_[k] = PaddedPoints(object, first);
   });
 }
 

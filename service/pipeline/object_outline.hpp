@@ -14,9 +14,7 @@ namespace graspd {
 
 class ObjectOutlines {
  public:
-  /// object_of_point: negative for none.
-  ObjectOutlines(const PointCloud& cloud, const std::pmr::vector<std::int32_t>& object_of_point,
-                 int num_objects);
+  ObjectOutlines(const PointCloud& cloud, const ObjectPoints& points);
 
   /// Whether the candidate's object goes on without a gap for clearly more than the aperture along the
   /// closing axis, within the band and depth that the fingers would take. False says nothing.

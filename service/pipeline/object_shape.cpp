@@ -12,8 +12,8 @@
 
 namespace graspd {
 
-ObjectShape::ObjectShape(const Surfaces& surfaces, const std::pmr::vector<std::uint32_t>& points,
-                         std::int32_t object, const Eigen::Vector3f& center)
+ObjectShape::ObjectShape(const Surfaces& surfaces, std::span<const std::uint32_t> points, std::int32_t object,
+                         const Eigen::Vector3f& center)
     : surfaces_(surfaces),
       points_(points),
       object_(object),

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory_resource>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "service/pipeline/gripper.hpp"
@@ -17,7 +18,7 @@ class ObjectShape {
  public:
   /// points: the object's voxels, at least one; object: its number in the guess that they come from. All must
   /// outlive the shape.
-  ObjectShape(const Surfaces& surfaces, const std::pmr::vector<std::uint32_t>& points, std::int32_t object,
+  ObjectShape(const Surfaces& surfaces, std::span<const std::uint32_t> points, std::int32_t object,
               const Eigen::Vector3f& center);
 
   [[nodiscard]] const Eigen::Vector3f& center() const { return center_; }  ///< mean of the voxels
@@ -38,7 +39,7 @@ class ObjectShape {
 
  private:
   const Surfaces& surfaces_;
-  const std::pmr::vector<std::uint32_t>& points_;
+  std::span<const std::uint32_t> points_;
   std::int32_t object_;
   Eigen::Vector3f center_, sight_;
 };

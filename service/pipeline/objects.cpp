@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/pipeline/objects.hpp"
 
+#include <algorithm>
 #include <map>
+#include <numeric>
 #include <utility>
 
 #include "service/pipeline/union_find.hpp"
@@ -88,13 +90,47 @@ std::pmr::vector<Eigen::Vector3f> centers(const PointCloud& cloud, const Objects
   return result;
 }
 
+/// The points that are an object's. Most of a frame is not, and passed over eight points at a time.
+RawVector<std::uint32_t> points_of_objects(const Objects& objects) {
+  constexpr std::size_t kBlock = 8;
+  const std::pmr::vector<std::int32_t>& object = objects.of_point;
+  RawVector<std::uint32_t> found(object.size());
+  std::size_t n = 0;
+  for (std::size_t from = 0; from < object.size(); from += kBlock) {
+    const std::size_t end = std::min(from + kBlock, object.size());
+    std::int32_t signs = -1;
+    for (std::size_t i = from; i < end; ++i) signs &= object[i];
+    if (signs < 0) continue;
+    for (std::size_t i = from; i < end; ++i) {
+      found[n] = static_cast<std::uint32_t>(i);
+      n += object[i] >= 0 ? 1 : 0;
+    }
+  }
+  found.resize(n);
+  return found;
+}
+
 }  // namespace
 
-std::pmr::vector<std::pmr::vector<std::uint32_t>> points_by_object(const Objects& objects) {
-  std::pmr::vector<std::pmr::vector<std::uint32_t>> points(static_cast<std::size_t>(objects.num_objects));
-  for (std::uint32_t i = 0; i < objects.of_point.size(); ++i)
-    if (objects.of_point[i] >= 0) points[static_cast<std::size_t>(objects.of_point[i])].push_back(i);
-  return points;
+ObjectPoints points_by_object(const Objects& objects) {
+  ObjectPoints result;
+  result.starts.assign(static_cast<std::size_t>(objects.num_objects) + 1, 0);
+  RawVector<std::uint32_t> found = points_of_objects(objects);
+  for (const std::uint32_t i : found) ++result.starts[static_cast<std::size_t>(objects.of_point[i]) + 1];
+  std::partial_sum(result.starts.begin(), result.starts.end(), result.starts.begin());
+  result.points.resize(result.starts.back());
+  std::pmr::vector<std::uint32_t> next = result.starts;
+  for (const std::uint32_t i : found)
+    result.points[next[static_cast<std::size_t>(objects.of_point[i])]++] = i;
+  return result;
+}
+
+std::pmr::vector<std::uint8_t> objects_with_segments(const Objects& objects,
+                                                     const std::pmr::vector<std::uint8_t>& wanted) {
+  std::pmr::vector<std::uint8_t> has(static_cast<std::size_t>(objects.num_objects));
+  for (std::size_t s = 0; s < wanted.size(); ++s)
+    if (wanted[s] != 0) has[static_cast<std::size_t>(objects.of_segment[s])] = 1;
+  return has;
 }
 
 Objects group_segments(const PointCloud& cloud, const Normals& normals, const Neighborhoods& neighborhoods,

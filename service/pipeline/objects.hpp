@@ -4,10 +4,12 @@
 #pragma once
 #include <cstdint>
 #include <memory_resource>
+#include <span>
 #include <vector>
 
 #include "service/pipeline/neighborhoods.hpp"
 #include "service/pipeline/normals.hpp"
+#include "service/pipeline/raw_vector.hpp"
 #include "service/pipeline/segments.hpp"
 
 namespace graspd {
@@ -37,8 +39,21 @@ struct Objects {
   std::pmr::vector<Eigen::Vector3f> center;   ///< mean of each object's points
 };
 
-/// Indices of the points of each object, ascending.
-[[nodiscard]] std::pmr::vector<std::pmr::vector<std::uint32_t>> points_by_object(const Objects& objects);
+/// Indices of the points of each object.
+struct ObjectPoints {
+  RawVector<std::uint32_t> points;         ///< of one object after the other, ascending for each
+  std::pmr::vector<std::uint32_t> starts;  ///< where each object's begin; one more at the end
+
+  [[nodiscard]] std::span<const std::uint32_t> of(std::size_t object) const {
+    return {points.data() + starts[object], points.data() + starts[object + 1]};
+  }
+};
+
+[[nodiscard]] ObjectPoints points_by_object(const Objects& objects);
+
+/// 1 for each object that has a segment with wanted[segment] != 0.
+[[nodiscard]] std::pmr::vector<std::uint8_t> objects_with_segments(
+    const Objects& objects, const std::pmr::vector<std::uint8_t>& wanted);
 
 /// A pair of neighbours i, j of two segments is convex when (n_i - n_j) . (p_i - p_j) > 0. Points in no
 /// segment take the object of most of their neighbours, except those of the support (is_support, may be

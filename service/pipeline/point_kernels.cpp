@@ -157,6 +157,24 @@ CircleSums sum_circle(const CircleWeights& weights, const float* xs, const float
   return {sum[0], sum[1], sum[2], sum[3], sum[4], sum[5], sum[6], sum[7], sum[8]};
 }
 
+ProfileSums sum_profile(const ProfileWeights& weights, const FacePoints& face) {
+  const float* c = weights.c;
+  float parts[13][8] = {};
+  for (std::size_t i = 0; i < face.size; ++i) {
+    const float s = face.s[i], a = face.a[i], z = face.z[i], ss = s * s;
+    const float e = (c[0] + c[1] * s + (c[2] * ss + c[3] * a) - z) * weights.per_scale;
+    const float w = 1 / (1 + e * e), ws = w * s, wss = w * ss, wa = w * a, wz = w * z;
+    const float terms[13] = {w,       ws,     wss, wss * s, wss * ss, wa,    wa * s,
+                             wa * ss, wa * a, wz,  wz * s,  wz * ss,  wz * a};
+    for (int k = 0; k < 13; ++k) parts[k][i % 8] += terms[k];
+  }
+  float sum[13] = {};
+  for (int k = 0; k < 13; ++k)
+    for (const float part : parts[k]) sum[k] += part;
+  return {sum[0], sum[1], sum[2], sum[3],  sum[4],  sum[5], sum[6],
+          sum[7], sum[8], sum[9], sum[10], sum[11], sum[12]};
+}
+
 void find_hiders(const ViewImage& image, const Probes& places, float margin_m,
                  std::int32_t (&hiders)[kProbes]) {
   const auto& axes = image.axes;
@@ -185,7 +203,7 @@ void tag_band(const BandTags& tags, const BandPoints& points, std::int32_t* own,
   for (std::size_t k = 0; k < points.size; ++k)
     marks[k] = cell_index((points.f[k] - tags.first) / tags.bin, 1);
   for (std::size_t k = 0; k < points.size; ++k) {
-    const std::int32_t object = tags.object_of_point[points.index[k]], bin = marks[k];
+    const std::int32_t object = tags.object_of_voxel[tags.voxel_of_point[points.index[k]]], bin = marks[k];
     own[k] = object == tags.object ? 1 : 0;
     const bool has_entry = object != tags.left_out && bin >= 0 && bin < tags.num_bins;
     marks[k] = has_entry ? bin + own[k] * stride : tags.no_mark();
@@ -217,9 +235,9 @@ std::size_t select_band(const BandLimits& limits, const BandPoints& points, std:
 }  // namespace
 
 const PointKernels& portable_kernels() {
-  static constexpr PointKernels kKernels{keep_inside,  count_inside, meet_rows,   keep_near,
-                                         sum_moments,  sum_circle,   find_hiders, extend_bounds,
-                                         number_cells, tag_band,     keep_depths, select_band};
+  static constexpr PointKernels kKernels{keep_inside, count_inside, meet_rows,   keep_near,     sum_moments,
+                                         sum_circle,  sum_profile,  find_hiders, extend_bounds, number_cells,
+                                         tag_band,    keep_depths,  select_band};
   return kKernels;
 }
 

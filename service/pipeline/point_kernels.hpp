@@ -66,7 +66,8 @@ struct BandPoints {
 
 /// Whose points are the candidate's, and how the profile along f is divided.
 struct BandTags {
-  const std::int32_t* object_of_point;
+  const std::int32_t* object_of_voxel;
+  const std::uint32_t* voxel_of_point;
   std::int32_t object, left_out;  ///< points of left_out take no part in the profile
   float first, bin;               ///< where bin 0 begins, and the length of each [m]
   std::int32_t num_bins;
@@ -117,6 +118,22 @@ struct CircleSums {
   double n, x, y, xx, xy, yy, q, qx, qy;
 };
 
+/// Points of a face, and a profile z = c0 + c1 s + c2 s^2 + c3 a through it: each has the weight
+/// 1 / (1 + e^2) by its distance e from the profile along z, in units of a scale.
+struct FacePoints {
+  const float *s, *a, *z;
+  std::size_t size;
+};
+struct ProfileWeights {
+  float c[4];
+  float per_scale;  ///< 1 / scale; 0: all weights are 1
+};
+
+/// Weighted sums over them.
+struct ProfileSums {
+  float n, s, ss, sss, ssss, a, as, ass, aa, z, zs, zss, za;
+};
+
 struct PointKernels {
   /// Writes the points of some spans that are inside, in their order; returns their number.
   std::size_t (*keep_inside)(const BoxTest& box, const PointRange& points, std::span<const PointSpan> spans,
@@ -138,6 +155,9 @@ struct PointKernels {
   /// Summed in four parts, every fourth point in one, which are added in order. As many as kPointPadding more
   /// points must be readable.
   CircleSums (*sum_circle)(const CircleWeights& weights, const float* x, const float* y, std::size_t n);
+  /// Summed in eight parts, every eighth point in one, which are added in order. As many as kPointPadding
+  /// more points must be readable.
+  ProfileSums (*sum_profile)(const ProfileWeights& weights, const FacePoints& face);
   /// Writes for each place the point that hides it, nearer than it by more than margin_m, or -1.
   void (*find_hiders)(const ViewImage& image, const Probes& places, float margin_m,
                       std::int32_t (&hiders)[kProbes]);

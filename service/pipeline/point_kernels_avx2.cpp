@@ -114,18 +114,6 @@ GRASPD_AVX2 std::size_t keep_near(const float (&p)[3], float distance_squared, c
   return n;
 }
 
-/// Sums of the eight lanes of nine vectors, each in the order of its lanes.
-GRASPD_AVX2 Moments sums_of_lanes(const __m256 (&v)[9]) {
-  alignas(32) float part[9][8];
-  for (int m = 0; m < 9; ++m) _mm256_store_ps(part[m], v[m]);
-  float sum[9];
-  for (int m = 0; m < 9; ++m) {
-    sum[m] = 0;
-    for (const float p : part[m]) sum[m] += p;
-  }
-  return {sum[0], sum[1], sum[2], sum[3], sum[4], sum[5], sum[6], sum[7], sum[8]};
-}
-
 GRASPD_AVX2 Moments sum_moments(const float (&p)[3], const float* x, const float* y, const float* z,
                                 const std::uint32_t* indices, std::size_t n) {
   const __m256 px = _mm256_set1_ps(p[0]), py = _mm256_set1_ps(p[1]), pz = _mm256_set1_ps(p[2]);
@@ -148,7 +136,9 @@ GRASPD_AVX2 Moments sum_moments(const float (&p)[3], const float* x, const float
     sum[7] = _mm256_add_ps(sum[7], _mm256_mul_ps(dy, dz));
     sum[8] = _mm256_add_ps(sum[8], _mm256_mul_ps(dz, dz));
   }
-  return sums_of_lanes(sum);
+  float total[9];
+  for (int m = 0; m < 9; ++m) total[m] = sum_in_order(sum[m]);
+  return {total[0], total[1], total[2], total[3], total[4], total[5], total[6], total[7], total[8]};
 }
 
 GRASPD_AVX2 void extend_bounds(const float* v, std::size_t n, float& low, float& high) {
@@ -223,9 +213,9 @@ GRASPD_AVX2 void number_cells(const CellGrid& grid, const float* x, const float*
 }  // namespace
 
 const PointKernels* avx2_kernels() {
-  static constexpr PointKernels kKernels{keep_inside,  count_inside, meet_rows,   keep_near,
-                                         sum_moments,  sum_circle,   find_hiders, extend_bounds,
-                                         number_cells, tag_band,     keep_depths, select_band};
+  static constexpr PointKernels kKernels{keep_inside, count_inside, meet_rows,   keep_near,     sum_moments,
+                                         sum_circle,  sum_profile,  find_hiders, extend_bounds, number_cells,
+                                         tag_band,    keep_depths,  select_band};
   static const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("popcnt");
   return has_avx2 ? &kKernels : nullptr;
 }

@@ -51,21 +51,58 @@ TEST(CheckKernels, SumOverPointsWeighedByACircle) {
   }
 }
 
+TEST(CheckKernels, SumOverPointsWeighedByAProfile) {
+  const Points points(60, 12);
+  for (const std::size_t num : {0, 1, 7, 8, 17, 60}) {
+    const FacePoints face{points.x.data(), points.y.data(), points.z.data(), num};
+    for (const ProfileWeights& weights :
+         {ProfileWeights{{0, 0, 0, 0}, 0}, ProfileWeights{{0.1f, -0.2f, 0.5f, 0.3f}, 4}}) {
+      double n = 0, ssss = 0, ass = 0, zs = 0, za = 0;
+      for (std::size_t k = 0; k < num; ++k) {
+        const double s = double{points.x[k]}, a = double{points.y[k]}, z = double{points.z[k]};
+        const float* c = weights.c;
+        const double e = (double{c[0]} + double{c[1]} * s + double{c[2]} * s * s + double{c[3]} * a - z) *
+                         double{weights.per_scale};
+        const double w = 1 / (1 + e * e);
+        n += w;
+        ssss += w * s * s * s * s;
+        ass += w * a * s * s;
+        zs += w * z * s;
+        za += w * z * a;
+      }
+      const ProfileSums expected = portable_kernels().sum_profile(weights, face);
+      EXPECT_NEAR(double{expected.n}, n, 1e-4);
+      EXPECT_NEAR(double{expected.ssss}, ssss, 1e-4);
+      EXPECT_NEAR(double{expected.ass}, ass, 1e-4);
+      EXPECT_NEAR(double{expected.zs}, zs, 1e-4);
+      EXPECT_NEAR(double{expected.za}, za, 1e-4);
+      for (const Form& form : forms()) {
+        const ProfileSums sums = form.kernels->sum_profile(weights, face);
+        const auto all = [](const ProfileSums& p) {
+          return std::array{p.n, p.s, p.ss, p.sss, p.ssss, p.a, p.as, p.ass, p.aa, p.z, p.zs, p.zss, p.za};
+        };
+        EXPECT_EQ(all(sums), all(expected)) << form.name << " " << num;
+      }
+    }
+  }
+}
+
 TEST(CheckKernels, TagBandsAndKeepDepths) {
   constexpr std::int32_t kOwn = 3, kLeftOut = -2;
   for (const std::size_t size : {0, 5, 8, 21, 400}) {
     Points points(size, 5);
-    std::pmr::vector<std::int32_t> object_of_point(size + 1000 + kPointPadding);
-    for (std::size_t i = 0; i < object_of_point.size(); ++i)
-      object_of_point[i] = static_cast<std::int32_t>(i % 7) - 2;
+    std::pmr::vector<std::int32_t> object_of_voxel{-2, -1, 0, 1, 2, 3, 4};
+    std::pmr::vector<std::uint32_t> voxel_of_point(size + 1000 + kPointPadding);
+    for (std::size_t i = 0; i < voxel_of_point.size(); ++i)
+      voxel_of_point[i] = static_cast<std::uint32_t>(i * 3 % object_of_voxel.size());
     const BandPoints band{points.x.data(), points.y.data(), points.index.data(), size};
-    const BandTags tags{object_of_point.data(), kOwn, kLeftOut, -0.8f, 0.01f, 150};
+    const BandTags tags{object_of_voxel.data(), voxel_of_point.data(), kOwn, kLeftOut, -0.8f, 0.01f, 150};
     for (const Form& form : forms()) {
       std::pmr::vector<std::int32_t> own(size + kPointPadding, -9), marks(own);
       form.kernels->tag_band(tags, band, own.data(), marks.data());
       std::pmr::vector<float> expected;
       for (std::size_t k = 0; k < size; ++k) {
-        const std::int32_t object = object_of_point[points.index[k]];
+        const std::int32_t object = object_of_voxel[voxel_of_point[points.index[k]]];
         EXPECT_EQ(own[k], object == kOwn ? 1 : 0);
         const auto bin = static_cast<std::int32_t>(std::floor((points.x[k] + 0.8f) / 0.01f));
         const bool has_none = object == kLeftOut || bin < 0 || bin >= 150;

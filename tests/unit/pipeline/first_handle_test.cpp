@@ -26,9 +26,8 @@ class Search {
         surfaces_(find_surfaces(kept_.cloud, {}, [](std::string_view) {})),
         search_({kept_.cloud, index_, surfaces_}, surfaces_.objects, gripper_, config_) {
     result_.segments.resize(surfaces_.segments.list.size());
-    search_.run(std::pmr::vector<std::uint8_t>(static_cast<std::size_t>(surfaces_.objects.num_objects), 1),
-                result_);
-    first_ = first_handles(result_.handles, surfaces_, gripper_, config_.check);
+    search_.run(std::pmr::vector<std::uint8_t>(surfaces_.segments.list.size(), 1), buffers_, result_);
+    first_ = first_handles(result_.handles, surfaces_, gripper_, config_.check, buffers_);
   }
   Search(const Search&) = delete;
   Search& operator=(const Search&) = delete;
@@ -51,6 +50,7 @@ class Search {
   PointIndex index_;
   Surfaces surfaces_;
   GuessSearch search_;
+  CheckBuffersOfThreads buffers_;
   SearchResult result_;
   std::pmr::vector<FoundHandle> first_;
 };
@@ -60,7 +60,8 @@ PointCloud long_box() {
 }
 
 TEST(FirstHandle, NothingFoundNothingFirst) {
-  EXPECT_TRUE(first_handles({}, {}, {}, {}).empty());
+  CheckBuffersOfThreads buffers;
+  EXPECT_TRUE(first_handles({}, {}, {}, {}, buffers).empty());
 }
 
 TEST(FirstHandle, OneForEachObjectThatHasHandles) {

@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <map>
 #include <set>
+#include <span>
 
 #include "tests/support/clouds.hpp"
 #include "tests/support/scene_gallery.hpp"
@@ -123,6 +125,25 @@ TEST(Objects, TooShortABorderDoesNotJoin) {
   EXPECT_EQ(apart.num_objects, static_cast<int>(segments.list.size()));
   for (std::size_t k = 0; k < segments.list.size(); ++k)
     EXPECT_EQ(apart.of_segment[k], static_cast<std::int32_t>(k));
+}
+
+TEST(Objects, PointsOfEachObjectAscendingAndNoOthers) {
+  for (const int size : {0, 1, 7, 8, 9, 100}) {
+    Objects objects;
+    objects.num_objects = 4;  // number 2 has no points
+    std::pmr::vector<std::pmr::vector<std::uint32_t>> expected(4);
+    for (int i = 0; i < size; ++i) {
+      const int object =
+          i % 24 < 8 ? kSupportObject : std::array{-1, 0, 3, 1, 1}[static_cast<std::size_t>(i % 5)];
+      objects.of_point.push_back(object);
+      if (object >= 0) expected[static_cast<std::size_t>(object)].push_back(static_cast<std::uint32_t>(i));
+    }
+    const ObjectPoints points = points_by_object(objects);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::span<const std::uint32_t> of = points.of(k);
+      EXPECT_EQ(std::pmr::vector<std::uint32_t>(of.begin(), of.end()), expected[k]) << size << " " << k;
+    }
+  }
 }
 
 TEST(Objects, ObjectsOfPointsAreThoseOfTheirSegments) {
