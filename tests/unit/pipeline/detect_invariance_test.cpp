@@ -58,8 +58,8 @@ TEST(DetectInvariance, OrganizedOrNot) {
   EXPECT_TRUE(same_bits(a, b));
 }
 
-/// In the optical frame the image tells what was seen; without it that is rendered, a little differently along
-/// borders.
+/// In the optical frame the image tells what was seen; without it that is rendered, a little differently
+/// along borders.
 TEST(DetectInvariance, OrganizedInTheOpticalFrameOrNot) {
   for (const AnalyticScene& scene : {three_objects(), bottle_beside_box()}) {
     const PointCloud organized = render(in_optical_frame(scene)).cloud;
