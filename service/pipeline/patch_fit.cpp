@@ -96,37 +96,71 @@ float profile_reach(const SceneView& scene, const Gripper& g) {
   return (scene.is_sparse() ? 1.0f : 1.5f) * g.aperture_m + g.min_gap_m;
 }
 
-/// The patch around position f0: between the nearest gaps on both sides, at depths down to l below top.
-Failure find_patch(const BandTags& tags, const Gripper& g, CheckBuffers& buffers, float f0, PatchFit& fit) {
+/// Bins from one gap to the next.
+struct Stretch {
+  int low, high;
+  [[nodiscard]] float width_m() const { return kBin * static_cast<float>(high - low + 1); }
+};
+
+/// Outwards from an occupied bin over bins to the nearest gaps.
+Stretch between_gaps(const BinSet& bins, int start, int min_gap) {
+  const BinSet gaps = bins.gaps(min_gap);
+  const int gap_below = gaps.previous(start - min_gap);
+  return {gap_below < 0 ? bins.next(0) : gap_below + min_gap, bins.previous(gaps.next(start) - 1)};
+}
+
+/// Whether too few of the first n selected points from f_min to f_max are the object's.
+bool is_shared(const HandleCheckConfig& config, const CheckBuffers& buffers, std::size_t n, float f_min,
+               float f_max) {
+  int all = 0, own = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::uint32_t k = buffers.selected[i];
+    const bool is_between = buffers.local.f[k] >= f_min && buffers.local.f[k] <= f_max;
+    all += is_between ? 1 : 0;
+    own += is_between ? buffers.own[k] : 0;
+  }
+  return static_cast<float>(own) < config.min_own_share * static_cast<float>(all);
+}
+
+/// The patch around position f0: between the nearest gaps on both sides, at depths down to depth_m below top.
+/// Where others are so near that it is shared with them (kNoGap), between the nearest gaps of the object.
+Failure find_patch(const BandTags& tags, const Gripper& g, const HandleCheckConfig& config, float depth_m,
+                   CheckBuffers& buffers, float f0, PatchFit& fit) {
   constexpr float kAnywhere = std::numeric_limits<float>::infinity();
-  const std::size_t n = point_kernels().select_band(
-      {0, fit.top_m, 0, kAnywhere, g.grasp_depth_m - g.finger_length_m, g.grasp_depth_m},
-      buffers.local.band(), buffers.selected.data());
+  constexpr int kStray = 3;  // bins
+  const std::size_t n =
+      point_kernels().select_band({0, fit.top_m, 0, kAnywhere, g.grasp_depth_m - g.finger_length_m, depth_m},
+                                  buffers.local.band(), buffers.selected.data());
   const Profile profile(tags, n, buffers);
   const int start = nearest(profile.own, cell_index((f0 - tags.first) / kBin, 1),
                             static_cast<int>(0.5f * g.aperture_m / kBin));
   if (start < 0) return Failure::kTooFewPoints;
-  // Outwards over occupied bins to the nearest gaps, and to what comes first beyond them.
   const int min_gap = static_cast<int>(g.min_gap_m / kBin);
-  const BinSet gaps = profile.any.gaps(min_gap);
-  const int gap_below = gaps.previous(start - min_gap);
-  const int low = gap_below < 0 ? profile.any.next(0) : gap_below + min_gap,
-            high = profile.any.previous(gaps.next(start) - 1);
-  const int below = profile.any.previous(low - 1),
-            beyond = std::min(profile.any.next(high + 1), tags.num_bins);
-  fit.width_m = kBin * static_cast<float>(high - low + 1);
-  fit.center_m = tags.first + kBin * static_cast<float>(low) + 0.5f * fit.width_m;
-  fit.gap_m = {std::min(g.aperture_m, kBin * static_cast<float>(low - below - 1)),
-               std::min(g.aperture_m, kBin * static_cast<float>(beyond - high - 1))};
-  if (fit.width_m <= g.aperture_m + 0.004f) return Failure::kNone;
-  return profile.others.count(low, high) > 3 ? Failure::kNoGap : Failure::kTooWide;
+  const auto take = [&](const Stretch& patch) {
+    const int below = profile.any.previous(patch.low - 1),
+              beyond = std::min(profile.any.next(patch.high + 1), tags.num_bins);
+    fit.width_m = patch.width_m();
+    fit.center_m = tags.first + kBin * static_cast<float>(patch.low) + 0.5f * fit.width_m;
+    fit.gap_m = {std::min(g.aperture_m, kBin * static_cast<float>(patch.low - below - 1)),
+                 std::min(g.aperture_m, kBin * static_cast<float>(beyond - patch.high - 1))};
+  };
+  const Stretch patch = between_gaps(profile.any, start, min_gap);
+  take(patch);
+  const bool is_wide = fit.width_m > g.aperture_m + 0.004f;
+  if (profile.others.count(patch.low, patch.high) <= kStray)
+    return is_wide ? Failure::kTooWide : Failure::kNone;
+  const float half = 0.5f * fit.width_m;
+  if (!is_wide && !is_shared(config, buffers, n, fit.center_m - half, fit.center_m + half))
+    return Failure::kNone;
+  take(between_gaps(profile.own, start, min_gap));
+  return Failure::kNoGap;
 }
 
 /// The top of the whole patch may be higher than where the search began; then the depths below it are others,
 /// and the patch too. gather(z): the points around depth z.
 template <class Gather>
-Failure settle_top(const BandTags& tags, const Gripper& g, CheckBuffers& buffers, const Gather& gather,
-                   PatchFit& fit) {
+Failure settle_top(const BandTags& tags, const Gripper& g, const HandleCheckConfig& config, float depth_m,
+                   CheckBuffers& buffers, const Gather& gather, PatchFit& fit) {
   constexpr int kMostRounds = 4;
   float gathered_m = 0;
   for (int round = 0; round < kMostRounds; ++round) {
@@ -137,7 +171,8 @@ Failure settle_top(const BandTags& tags, const Gripper& g, CheckBuffers& buffers
     const float low = fit.center_m - 0.5f * fit.width_m, high = low + fit.width_m;
     if (!find_top(buffers, low, high, fit.top_m)) return Failure::kTooFewPoints;
     if (!is_far_up && std::abs(fit.top_m - before) < kBin) break;
-    if (const Failure failure = find_patch(tags, g, buffers, fit.center_m, fit); failure != Failure::kNone)
+    if (const Failure failure = find_patch(tags, g, config, depth_m, buffers, fit.center_m, fit);
+        failure != Failure::kNone)
       return failure;
   }
   return Failure::kNone;
@@ -191,11 +226,25 @@ Failure fit_patch(const SceneView& scene, const Gripper& gripper, const HandleCh
   };
   gather(0);
   if (!find_top(buffers, -kTopWindow, kTopWindow, fit.top_m)) return Failure::kTooFewPoints;
-  if (const Failure failure = find_patch(tags, g, buffers, 0, fit); failure != Failure::kNone) return failure;
-  if (const Failure failure = settle_top(tags, g, buffers, gather, fit); failure != Failure::kNone)
-    return failure;
-  const float raise = raise_for_obstacles(scene, g, config, candidate, buffers, fit);
-  if (raise > g.grasp_depth_m - config.min_grip_depth_m) return Failure::kFingers;
+  const auto fit_to = [&](float depth_m) {
+    const Failure failure = find_patch(tags, g, config, depth_m, buffers, 0, fit);
+    return failure != Failure::kNone ? failure : settle_top(tags, g, config, depth_m, buffers, gather, fit);
+  };
+  // What the fingertips may be less deep by.
+  float room = g.grasp_depth_m - config.min_grip_depth_m;
+  Failure failure = fit_to(g.grasp_depth_m);
+  float raise = 0;
+  if (failure == Failure::kNoGap && fit.width_m <= g.aperture_m) {
+    // Above what leaves no gap at full depth there may be one.
+    raise = raise_for_obstacles(scene, g, config, candidate, buffers, fit);
+    if (raise > room) return failure;
+    failure = fit_to(g.grasp_depth_m - raise);
+  }
+  if (failure != Failure::kNone) return failure;
+  fit.top_m -= raise;
+  room -= raise;
+  raise = raise_for_obstacles(scene, g, config, candidate, buffers, fit);
+  if (raise > room) return Failure::kFingers;
   fit.top_m -= raise;
   shift(buffers.local, fit.center_m, fit.top_m);
   return Failure::kNone;

@@ -103,5 +103,33 @@ TEST(PatchFit, FingersGoLessDeepWhereTheSupportIsNear) {
   EXPECT_LT(tip_z, 0.006f) << "no higher than it must";
 }
 
+/// Three boxes side by side without a gap, the one in the middle 100 mm high.
+AnalyticScene row_of_boxes(double height_beside) {
+  return on_table({standing_box(-0.045, 0, {0.05, 0.10, height_beside}),
+                   standing_box(0, 0, {0.04, 0.14, 0.10}),
+                   standing_box(0.045, 0, {0.05, 0.10, height_beside})});
+}
+
+TEST(PatchFit, FingersGoNoDeeperThanWhatTouchesTheObject) {
+  const Gripper gripper;
+  for (const float beside : {0.085f, 0.08f, 0.075f}) {
+    SCOPED_TRACE(beside);
+    const CheckScene scene(row_of_boxes(beside));
+    const Fitted fitted = fit_from_above(scene, {0.005f, 0, 0.10f});
+    ASSERT_EQ(fitted.failure, Failure::kNone);
+    EXPECT_NEAR(fitted.fit.width_m, 0.04f, 0.003f);
+    EXPECT_NEAR(fitted.position.x(), 0, 0.002f);
+    const float tip_z = fitted.position.z() - gripper.grasp_depth_m;
+    EXPECT_GT(tip_z, beside);
+    EXPECT_LT(tip_z, beside + 0.006f) << "no higher than it must";
+  }
+}
+
+TEST(PatchFit, WhatHardlyStandsOutOfARowHasNoGap) {
+  EXPECT_EQ(fit_from_above(CheckScene(row_of_boxes(0.09)), {0, 0, 0.10f}).failure, Failure::kNoGap);
+  EXPECT_EQ(fit_from_above(CheckScene(wedged_boxes()), {0, 0, 0.08f}).failure, Failure::kTooWide)
+      << "of one height they look like one";
+}
+
 }  // namespace
 }  // namespace graspd
