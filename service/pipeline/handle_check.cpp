@@ -150,7 +150,7 @@ void Check::find_ends() {
 }
 
 Failure Check::check_silhouettes() {
-  constexpr int kSlabs = 5;
+  constexpr int kSlabs = 5, kLeastSlabs = 3;
   std::array<float, kSlabs> low, high;
   low.fill(1);
   high.fill(-1);
@@ -174,7 +174,7 @@ Failure Check::check_silhouettes() {
       sxx += x * x;
       sxy += x * y;
     }
-    if (n < 4) return Failure::kSilhouettes;
+    if (n < kLeastSlabs) return Failure::kSilhouettes;
     const float slope = (n * sxy - sx * sy) / (n * sxx - sx * sx);
     if (std::abs(slope) > limit) return Failure::kSilhouettes;
     margins_.silhouettes = std::min(margins_.silhouettes, 1 - std::abs(slope) / limit);

@@ -82,5 +82,22 @@ TEST(HandleCheck, ABoxIsHeldAcrossItsNarrowSideOnly) {
   EXPECT_EQ(check(Eigen::Vector3f::UnitY()).failure, Failure::kTooWide) << "120 mm";
 }
 
+TEST(HandleCheck, HalfOfAFingerOnTheEndOfABoxIsEnough) {
+  const Gripper gripper;
+  const CheckScene scene(box_on_table());
+  constexpr float kEnd = -0.06f;
+  CheckBuffers buffers;
+  const auto check = [&](float on_the_box) {
+    const float y = kEnd + on_the_box - 0.5f * gripper.finger_thickness_m;
+    return check_candidate(
+        scene.view(), gripper, {},
+        scene.candidate({0, y, 0.08f}, -Eigen::Vector3f::UnitZ(), Eigen::Vector3f::UnitX()), buffers);
+  };
+  const CheckResult on_half = check(0.5f * gripper.finger_thickness_m);
+  EXPECT_EQ(on_half.failure, Failure::kNone);
+  EXPECT_NEAR(on_half.handle.width_m, 0.05f, 0.003f);
+  EXPECT_EQ(check(0.3f * gripper.finger_thickness_m).failure, Failure::kSilhouettes);
+}
+
 }  // namespace
 }  // namespace graspd
