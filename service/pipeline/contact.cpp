@@ -26,6 +26,7 @@ constexpr float kMaxWedge = 0.65f;     // mean tilt of a face that ends at free 
 constexpr float kMaxFlatTilt = 0.40f;  // tilt of a flat face that is carried on [rad]
 constexpr float kMaxDoubt = 0.006f;    // between two guesses at where a round face ends [m]
 constexpr float kMaxUnseenBulge = 0.012f;  // beyond an edge beside seen space [m]
+constexpr float kSeenThrough = 0.003f;     // a place this far behind what is seen is not seen to be free [m]
 
 /// Points of the face near the end: distance inwards from the end, depth, and place along the major axis.
 /// With room for what the kernels read beyond the points.
@@ -136,6 +137,33 @@ bool slips_off(const ContactInput& in) {
          in.circle->center.y() - in.depth_m > in.circle->radius * std::sin(in.max_wall_angle_rad);
 }
 
+/// How much of a bulge beyond the end there can be: it ends where the sensor looks through at all depths.
+float unseen_bulge(const ContactInput& in, float side, float end_m, float end_depth_m, float bulge_m) {
+  constexpr int kSteps = 4, kMostOfThree = 2;
+  constexpr float kDepths = static_cast<float>(kProbes);
+  Probes places;
+  std::int32_t hiders[kProbes];
+  for (int step = 1; step <= kSteps; ++step) {
+    const float beyond = bulge_m * static_cast<float>(step) / kSteps;
+    int hidden[kProbes] = {};
+    for (const float a : {-0.3f, 0.0f, 0.3f}) {
+      for (std::size_t k = 0; k < kProbes; ++k) {
+        const float z = end_depth_m + (in.depth_m - end_depth_m) * (static_cast<float>(k) + 0.5f) / kDepths;
+        const Eigen::Vector3f p =
+            in.position + in.rotation * Eigen::Vector3f(a * in.finger_thickness_m, end_m + side * beyond, z);
+        places.x[k] = p.x();
+        places.y[k] = p.y();
+        places.z[k] = p.z();
+      }
+      in.scene.depth_map.find_hiders(places, kSeenThrough, hiders);
+      for (std::size_t k = 0; k < kProbes; ++k) hidden[k] += hiders[k] != DepthMap::kFree ? 1 : 0;
+    }
+    if (std::none_of(hidden, hidden + kProbes, [](int n) { return n >= kMostOfThree; }))
+      return bulge_m * static_cast<float>(step - 1) / kSteps;
+  }
+  return bulge_m;
+}
+
 /// A face whose wall is out of sight: which way it goes on decides.
 Contact edge_contact(const ContactInput& in, float side, float end_m, float hidden_share, const Face& face) {
   float span = 1e-3f;
@@ -153,7 +181,8 @@ Contact edge_contact(const ContactInput& in, float side, float end_m, float hidd
   // Even where the place beside it is seen, the widest place of a round object may lie below what is;
   // anywhere between the edge and what the face suggests, so that their middle is the least wrong; where the
   // whole profile is a circle, there.
-  const float bulge = round_end ? std::min(kMaxUnseenBulge, side * (*round_end - end_m)) : 0;
+  float bulge = round_end ? std::min(kMaxUnseenBulge, side * (*round_end - end_m)) : 0;
+  if (bulge > 0 && hidden_share <= kSeenFree) bulge = unseen_bulge(in, side, end_m, c[0], bulge);
   const float free_end = end_m + side * (in.circle ? 1.0f : 0.5f) * bulge;
   if (hidden_share <= kSeenFree) return {no_wedge ? ContactKind::kFreeEdge : ContactKind::kNone, free_end};
   if (hidden_share < kHidden && !no_wedge) return {ContactKind::kNone, end_m, {}};

@@ -87,6 +87,20 @@ TEST(Contact, ARoundThingMetFarAboveItsWidestPlaceIsNotHeld) {
   EXPECT_EQ(scene.contacts(top, deep)[1].kind, ContactKind::kCurvedEdge);
 }
 
+TEST(Contact, AThingThatTheSensorSeesPastIsNoWiderThanWhatIsSeen) {
+  // The seen half of a rod is part of a circle that says nothing about what is beside it.
+  for (const double radius : {0.008, 0.010, 0.0125}) {
+    SCOPED_TRACE(radius);
+    const CheckScene scene(on_table({standing_cylinder(0, 0, radius, 0.10)}));
+    const auto r = static_cast<float>(radius);
+    const auto [low, high] = scene.contacts(scene.candidate({0, 0, 0.10f}, kDown, kAcross));
+    EXPECT_EQ(low.kind, ContactKind::kFreeEdge);
+    EXPECT_EQ(high.kind, ContactKind::kFreeEdge);
+    EXPECT_NEAR(low.reach_m, -r, 0.0015f);
+    EXPECT_NEAR(high.reach_m, r, 0.0015f);
+  }
+}
+
 TEST(Contact, WhereSomethingNearerHidesTheRestIsNoEdge) {
   // A tall box close to the camera hides the right part of a wide one.
   const AnalyticSolid wide = standing_box(0, 0.06, {0.12, 0.06, 0.06});
