@@ -3,6 +3,7 @@
 #include "service/pipeline/objects.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -15,6 +16,7 @@ namespace {
 struct Border {
   int pairs = 0;
   int convex = 0;
+  Eigen::Vector3f across = Eigen::Vector3f::Zero();  // sum of the ways from the second group to the first
 };
 using Borders = std::pmr::map<std::pair<std::int32_t, std::int32_t>, Border>;
 
@@ -29,11 +31,22 @@ Borders find_borders(const PointCloud& cloud, const Normals& normals, const Neig
       if (b <= a) continue;
       Border& border = borders[{a, b}];
       ++border.pairs;
-      const float bend = (normals.at(i) - normals.at(j)).dot(cloud.point(i) - cloud.point(j));
-      border.convex += bend > 0 ? 1 : 0;
+      const Eigen::Vector3f across = cloud.point(i) - cloud.point(j);
+      border.across += across;
+      border.convex += (normals.at(i) - normals.at(j)).dot(across) > 0 ? 1 : 0;
     }
   }
   return borders;
+}
+
+/// Parallel faces with a step between them: of two things that touch. A thing's own faces at the foot and the
+/// top of a step are parted by the face between them.
+bool is_step(const Segment& a, const Segment& b, const Border& border) {
+  constexpr float kParallel = 0.94f;  // cosine: 20 degrees
+  constexpr float kStep = 0.002f;     // mean height of neighbours over neighbours [m]
+  if (a.normal.dot(b.normal) < kParallel) return false;
+  const Eigen::Vector3f normal = (a.normal + b.normal).normalized();
+  return std::abs(normal.dot(border.across)) > kStep * static_cast<float>(border.pairs);
 }
 
 /// Number of each group's set, in the order of their first groups.
@@ -136,7 +149,12 @@ std::pmr::vector<std::uint8_t> objects_with_segments(const Objects& objects,
 Objects group_segments(const PointCloud& cloud, const Normals& normals, const Neighborhoods& neighborhoods,
                        const Segments& segments, const std::pmr::vector<std::uint8_t>& is_support,
                        const ObjectsConfig& config) {
-  const Borders borders = find_borders(cloud, normals, neighborhoods, segments.of_point);
+  Borders borders = find_borders(cloud, normals, neighborhoods, segments.of_point);
+  std::erase_if(borders, [&](const auto& entry) {
+    const auto [a, b] = entry.first;
+    return is_step(segments.list[static_cast<std::size_t>(a)], segments.list[static_cast<std::size_t>(b)],
+                   entry.second);
+  });
   Objects objects;
   objects.of_segment = merge(segments.list.size(), borders, config.min_border_pairs, config.min_convex_share,
                              objects.num_objects);

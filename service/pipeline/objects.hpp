@@ -55,9 +55,9 @@ struct ObjectPoints {
 [[nodiscard]] std::pmr::vector<std::uint8_t> objects_with_segments(
     const Objects& objects, const std::pmr::vector<std::uint8_t>& wanted);
 
-/// A pair of neighbours i, j of two segments is convex when (n_i - n_j) . (p_i - p_j) > 0. Points in no
-/// segment take the object of most of their neighbours, except those of the support (is_support, may be
-/// empty).
+/// A pair of neighbours i, j of two segments is convex when (n_i - n_j) . (p_i - p_j) > 0. Parallel segments
+/// with a step between them are two objects that touch. Points in no segment take the object of most of their
+/// neighbours, except those of the support (is_support, may be empty).
 [[nodiscard]] Objects group_segments(const PointCloud& cloud, const Normals& normals,
                                      const Neighborhoods& neighborhoods, const Segments& segments,
                                      const std::pmr::vector<std::uint8_t>& is_support,

@@ -106,6 +106,37 @@ TEST(Objects, TwoBoxesWithAConcaveBorderAreTwo) {
   expect_one_object_each(group(bottle_beside_box()), {1, 2});
 }
 
+/// Objects of two level faces side by side, the second one lower by the step. Its normals lean away from the
+/// first a little, as noise has it, so that the border is convex.
+int objects_of_two_faces(float step_m) {
+  constexpr float kSpacing = 0.003f;
+  PointCloud cloud;
+  cloud.viewpoint = {0, 0, 1};
+  Normals normals;
+  Labels labels;
+  labels.num_labels = 2;
+  for (int column = 0; column < 20; ++column)
+    for (int row = 0; row < 20; ++row) {
+      const bool is_second = column >= 10;
+      cloud.push_back({kSpacing * static_cast<float>(column), kSpacing * static_cast<float>(row),
+                       is_second ? -step_m : 0});
+      const Eigen::Vector3f n = Eigen::Vector3f(is_second ? 0.05f : 0, 0, 1).normalized();
+      normals.x.push_back(n.x());
+      normals.y.push_back(n.y());
+      normals.z.push_back(n.z());
+      labels.of_point.push_back(is_second ? 1 : 0);
+    }
+  const Segments segments = build_segments(cloud, labels, kSpacing, {});
+  return group_segments(cloud, normals, find_neighborhoods(cloud, {}, {}), segments, {}, {}).num_objects;
+}
+
+TEST(Objects, ParallelFacesWithAStepBetweenThemAreTwo) {
+  EXPECT_EQ(objects_of_two_faces(0), 1);
+  EXPECT_EQ(objects_of_two_faces(0.001f), 1) << "no more than noise";
+  EXPECT_EQ(objects_of_two_faces(0.004f), 2);
+  EXPECT_EQ(objects_of_two_faces(-0.004f), 2) << "whichever is the higher";
+}
+
 TEST(Objects, ThePointsOfTheSupportBelongToNone) {
   const Grouped g = group(box_on_table());
   ASSERT_TRUE(g.support);
