@@ -98,10 +98,11 @@ struct BoxQuery::Box {
   }
 };
 
-BoxQuery::BoxQuery(const PointCloud& cloud, float cell_m) : cell_m_(cell_m) {
+BoxQuery::BoxQuery(const PointCloud& cloud, float cell_m) : BoxQuery(cloud, order_by_cell(cloud, cell_m)) {}
+
+BoxQuery::BoxQuery(const PointCloud& cloud, const CellOrder& order)
+    : cell_m_(order.cell_m), points_(cloud, order.points) {
   constexpr int kMostGap = 16;  // cells without points within a row: bounds the table, whatever the cloud
-  const CellOrder order = order_by_cell(cloud, cell_m);
-  points_ = PaddedPoints(cloud, order.points);
   const std::size_t num_cells = order.num_cells();
   std::int64_t last_key = std::numeric_limits<std::int64_t>::min() / 2;
   for (std::size_t c = 0; c < num_cells; ++c) {

@@ -140,9 +140,8 @@ GRASPD_AVX2 void tag_band(const BandTags& tags, const BandPoints& points, std::i
                 stride = _mm256_set1_epi32(static_cast<int>(tags.stride()));
   std::size_t k = 0;
   for (; k + 8 <= points.size; k += 8) {
-    const __m256i voxel = _mm256_i32gather_epi32(reinterpret_cast<const int*>(tags.voxel_of_point),
-                                                 load(points.index + k), sizeof(std::int32_t));
-    const __m256i of_point = _mm256_i32gather_epi32(tags.object_of_voxel, voxel, sizeof(std::int32_t));
+    const __m256i of_point =
+        _mm256_i32gather_epi32(tags.object_of_point, load(points.index + k), sizeof(std::int32_t));
     const __m256i same = _mm256_cmpeq_epi32(of_point, object);
     const __m256i is_own = _mm256_srli_epi32(same, 31);
     const __m256i b = floor_to_int(_mm256_div_ps(_mm256_sub_ps(_mm256_loadu_ps(points.f + k), first), bin));

@@ -187,8 +187,7 @@ void shift(LocalPoints& local, float f, float z) {
 
 BandTags band_tags(const SceneView& scene, const Candidate& candidate, float reach_m) {
   // Where the support is in the way, the fingers go less deep: it does not widen the patch.
-  return {scene.object_of_voxel.data(),
-          scene.voxel.data(),
+  return {scene.object.data(),
           candidate.object,
           kSupportObject,
           -reach_m,

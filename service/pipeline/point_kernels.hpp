@@ -66,8 +66,7 @@ struct BandPoints {
 
 /// Whose points are the candidate's, and how the profile along f is divided.
 struct BandTags {
-  const std::int32_t* object_of_voxel;
-  const std::uint32_t* voxel_of_point;
+  const std::int32_t* object_of_point;
   std::int32_t object, left_out;  ///< points of left_out take no part in the profile
   float first, bin;               ///< where bin 0 begins, and the length of each [m]
   std::int32_t num_bins;

@@ -4,6 +4,7 @@
 
 #include <tbb/parallel_invoke.h>
 
+#include <numeric>
 #include <utility>
 
 #include "service/pipeline/thin_out.hpp"
@@ -48,11 +49,17 @@ bool take_out_container(const Surfaces& s, const DetectConfig& config,
 }
 
 SparseVoxels spread_thinly(const PointCloud& voxels, float spacing_m) {
+  const std::pmr::vector<std::uint32_t> chosen = thin_out(voxels, spacing_m);
+  const PointCloud cloud = points_at(voxels, chosen);
+  // In the query's own order, so that what is known of neighbours is near in memory.
+  CellOrder order = order_by_cell(cloud, kQueryCell);
   SparseVoxels sparse;
   sparse.spacing_m = spacing_m;
-  sparse.voxel = thin_out(voxels, spacing_m);
-  sparse.cloud = points_at(voxels, sparse.voxel);
-  sparse.query = BoxQuery(sparse.cloud, kQueryCell);
+  sparse.voxel.reserve(chosen.size());
+  for (const std::uint32_t i : order.points) sparse.voxel.push_back(chosen[i]);
+  sparse.cloud = points_at(cloud, order.points);
+  std::iota(order.points.begin(), order.points.end(), 0u);
+  sparse.query = BoxQuery(sparse.cloud, order);
   return sparse;
 }
 

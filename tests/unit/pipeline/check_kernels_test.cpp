@@ -91,18 +91,17 @@ TEST(CheckKernels, TagBandsAndKeepDepths) {
   constexpr std::int32_t kOwn = 3, kLeftOut = -2;
   for (const std::size_t size : {0, 5, 8, 21, 400}) {
     Points points(size, 5);
-    std::pmr::vector<std::int32_t> object_of_voxel{-2, -1, 0, 1, 2, 3, 4};
-    std::pmr::vector<std::uint32_t> voxel_of_point(size + 1000 + kPointPadding);
-    for (std::size_t i = 0; i < voxel_of_point.size(); ++i)
-      voxel_of_point[i] = static_cast<std::uint32_t>(i * 3 % object_of_voxel.size());
+    std::pmr::vector<std::int32_t> object_of_point(size + 1000 + kPointPadding);
+    for (std::size_t i = 0; i < object_of_point.size(); ++i)
+      object_of_point[i] = static_cast<std::int32_t>(i % 7) - 2;
     const BandPoints band{points.x.data(), points.y.data(), points.index.data(), size};
-    const BandTags tags{object_of_voxel.data(), voxel_of_point.data(), kOwn, kLeftOut, -0.8f, 0.01f, 150};
+    const BandTags tags{object_of_point.data(), kOwn, kLeftOut, -0.8f, 0.01f, 150};
     for (const Form& form : forms()) {
       std::pmr::vector<std::int32_t> own(size + kPointPadding, -9), marks(own);
       form.kernels->tag_band(tags, band, own.data(), marks.data());
       std::pmr::vector<float> expected;
       for (std::size_t k = 0; k < size; ++k) {
-        const std::int32_t object = object_of_voxel[voxel_of_point[points.index[k]]];
+        const std::int32_t object = object_of_point[points.index[k]];
         EXPECT_EQ(own[k], object == kOwn ? 1 : 0);
         const auto bin = static_cast<std::int32_t>(std::floor((points.x[k] + 0.8f) / 0.01f));
         const bool has_none = object == kLeftOut || bin < 0 || bin >= 150;

@@ -14,6 +14,13 @@ namespace {
 
 constexpr float kCell = 0.015f;  // of the grid for box queries [m]
 
+std::pmr::vector<std::int32_t> objects_of_points(const Surfaces& surfaces) {
+  std::pmr::vector<std::int32_t> objects;
+  for (const std::uint32_t voxel : surfaces.voxel_of_point)
+    objects.push_back(surfaces.objects.of_point[voxel]);
+  return objects;
+}
+
 float radians(float degrees) {
   return degrees * std::numbers::pi_v<float> / 180;
 }
@@ -25,14 +32,15 @@ CheckScene::CheckScene(const AnalyticScene& scene)
       surfaces_(find_surfaces(cloud_, {}, [](std::string_view) {})),
       depth_map_(cloud_),
       query_(cloud_, kCell),
+      object_of_point_(objects_of_points(surfaces_)),
       view_{cloud_,
             query_,
-            surfaces_.objects.of_point,
+            object_of_point_,
             surfaces_.normals,
             surfaces_.voxel_of_point,
             surfaces_.support,
             depth_map_,
-            surfaces_.voxel_of_point,
+            object_of_point_,
             4,
             12} {}
 
@@ -45,10 +53,9 @@ Candidate CheckScene::candidate(const Eigen::Vector3f& position, const Eigen::Ve
   float nearest = std::numeric_limits<float>::infinity();
   for (std::size_t i = 0; i < cloud_.size(); ++i) {
     const float distance = (cloud_.point(i) - position).squaredNorm();
-    const std::int32_t object = view_.object_of(static_cast<std::uint32_t>(i));
-    if (object < 0 || distance >= nearest) continue;
+    if (object_of_point_[i] < 0 || distance >= nearest) continue;
     nearest = distance;
-    candidate.object = object;
+    candidate.object = object_of_point_[i];
   }
   return candidate;
 }
@@ -78,7 +85,7 @@ std::array<Contact, 2> CheckScene::contacts(const Candidate& candidate, const Gr
   std::pmr::vector<Eigen::Vector2f> profile;
   float low = 1, high = -1, top = 1;
   for (std::uint32_t k = 0; k < local.size(); ++k) {
-    if (view_.object_of(local.index[k]) != candidate.object) continue;
+    if (object_of_point_[local.index[k]] != candidate.object) continue;
     between.push_back(k);
     profile.emplace_back(local.f[k], local.z[k]);
     low = std::min(low, local.f[k]);

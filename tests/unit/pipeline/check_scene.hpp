@@ -37,6 +37,7 @@ class CheckScene {
   Surfaces surfaces_;
   DepthMap depth_map_;
   BoxQuery query_;
+  std::pmr::vector<std::int32_t> object_of_point_;
   SceneView view_;
 };
 
