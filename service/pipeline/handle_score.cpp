@@ -16,9 +16,9 @@ float doubt(ContactKind kind) {
     case ContactKind::kFreeEdge:
       return 0.4f;
     case ContactKind::kCurvedEdge:
-      return 0.55f;
+      return 0.45f;
     case ContactKind::kFlatEdge:
-      return 0.15f;
+      return 0.35f;
     case ContactKind::kNone:
       return 10.0f;
   }
@@ -33,11 +33,11 @@ float doubt(float margin, float weight) {
 }  // namespace
 
 float score(const HandleMargins& m) {
-  constexpr float kBestLogOdds = 3.7f;
-  const float doubts = doubt(m.contact[0]) + doubt(m.contact[1]) + doubt(m.square, 3.9f) +
-                       doubt(m.area, 3.3f) + doubt(m.walls, 2.5f) + doubt(m.seen, 0.6f) +
-                       doubt(m.thickness, 1.4f) + doubt(m.silhouettes, 1.4f) + doubt(m.grip_depth, 0.5f) +
-                       doubt(m.central, 1.2f) + doubt(m.width, 1.0f) + doubt(m.steady, 2.5f);
+  constexpr float kBestLogOdds = 4.0f;
+  const float doubts = doubt(m.contact[0]) + doubt(m.contact[1]) + doubt(m.square, 3.0f) +
+                       doubt(m.area, 2.6f) + doubt(m.walls, 2.7f) + doubt(m.seen, 1.0f) +
+                       doubt(m.thickness, 1.4f) + doubt(m.silhouettes, 1.6f) + doubt(m.grip_depth, 0.25f) +
+                       doubt(m.central, 0.6f) + doubt(m.width, 0.5f) + doubt(m.steady, 2.1f);
   return 1 / (1 + std::exp(doubts - kBestLogOdds));
 }
 

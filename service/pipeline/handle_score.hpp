@@ -25,9 +25,9 @@ struct HandleMargins {
 };
 
 /// The chance that the handle holds: a logistic function of the contacts and the margins, each of which takes
-/// from the log odds of the best handle there can be. The weights are those of a logistic regression over
-/// handles on simulated scenes that were judged on their true solids (graspd-evaluate --simulate); no real
-/// frame took part.
+/// from the log odds of the best handle there can be. The weights lie midway between two logistic regressions
+/// over handles on simulated scenes that were judged on their true solids (graspd-evaluate --simulate); no
+/// real frame took part.
 [[nodiscard]] float score(const HandleMargins& margins);
 
 }  // namespace graspd
