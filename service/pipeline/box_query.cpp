@@ -98,12 +98,12 @@ struct BoxQuery::Box {
   }
 };
 
-BoxQuery::BoxQuery(const PointCloud& cloud, float cell_m) : BoxQuery(cloud, order_by_cell(cloud, cell_m)) {}
-
-BoxQuery::BoxQuery(const PointCloud& cloud, const CellOrder& order)
-    : cell_m_(order.cell_m), points_(cloud, order.points) {
+BoxQuery::BoxQuery(const PointCloud& cloud, float cell_m) : cell_m_(cell_m) {
   constexpr int kMostGap = 16;  // cells without points within a row: bounds the table, whatever the cloud
+  const CellRuns order = runs_by_cell(cloud, cell_m);
+  points_ = PaddedPoints(cloud, order.runs, cloud.size());
   const std::size_t num_cells = order.num_cells();
+  std::uint32_t position = 0;  // where the cell's points begin
   std::int64_t last_key = std::numeric_limits<std::int64_t>::min() / 2;
   for (std::size_t c = 0; c < num_cells; ++c) {
     const std::int64_t key = order.keys[c];
@@ -111,7 +111,7 @@ BoxQuery::BoxQuery(const PointCloud& cloud, const CellOrder& order)
     const bool same_layer = !layers_.empty() && cell.z() == layers_.back().z;
     const bool goes_on = same_layer && cell.y() == row_y_.back() && key - last_key <= kMostGap;
     if (!goes_on) {
-      if (!row_y_.empty()) cell_starts_.push_back(order.starts[c]);
+      if (!row_y_.empty()) cell_starts_.push_back(position);
       if (!same_layer) layers_.push_back({cell.z(), row_y_.size()});
       row_y_.push_back(cell.y());
       row_x_.push_back(cell.x());
@@ -119,10 +119,11 @@ BoxQuery::BoxQuery(const PointCloud& cloud, const CellOrder& order)
       row_start_.push_back(static_cast<std::uint32_t>(cell_starts_.size()));
     }
     for (std::int32_t& n = row_cells_.back(); n <= cell.x() - row_x_.back(); ++n)
-      cell_starts_.push_back(order.starts[c]);
+      cell_starts_.push_back(position);
     last_key = key;
+    for (const PointSpan& run : order.cell(c)) position += run.end - run.begin;
   }
-  cell_starts_.push_back(order.starts[num_cells]);
+  cell_starts_.push_back(position);
   layers_.push_back({std::numeric_limits<int>::max(), row_y_.size()});
   for (std::pmr::vector<std::int32_t>* v : {&row_y_, &row_x_, &row_cells_})
     v->resize(v->size() + kPointPadding);

@@ -47,8 +47,6 @@ class BoxQuery {
   BoxQuery() = default;
   /// All points must be finite. cell_m: side of the grid's cells, about a third of the boxes asked for.
   BoxQuery(const PointCloud& cloud, float cell_m);
-  /// The same with the order that the cloud's points have by cell.
-  BoxQuery(const PointCloud& cloud, const CellOrder& order);
 
   /// Points whose coordinates rotation^T (p - origin) lie in [min, max], in an order fixed by their
   /// positions. Replaces what is in out.

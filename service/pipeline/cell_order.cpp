@@ -7,73 +7,91 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <utility>
+
+#include "service/pipeline/cell_runs.hpp"
 
 namespace graspd {
 namespace {
 
-template <class Key>
-struct Entry {
-  Key key;
-  std::uint32_t point;
+/// Where a part of the sorted runs begins.
+struct PartBegin {
+  std::uint32_t cell = 0, point = 0;
 };
 
-/// How keys are taken apart for a radix sort.
-struct Digits {
-  int num_places, bits;
-
-  explicit Digits(int num_bits) {
-    constexpr int kMostBits = 13;  // counts of all values stay in the first-level cache
-    num_places = std::max(1, (num_bits + kMostBits - 1) / kMostBits);
-    bits = (num_bits + num_places - 1) / num_places;
-  }
-  [[nodiscard]] std::size_t num_values() const { return std::size_t{1} << bits; }
-  template <class Key>
-  [[nodiscard]] std::size_t at(Key key, int place) const {
-    return static_cast<std::size_t>(key >> (place * bits)) & (num_values() - 1);
-  }
-};
-
-/// The points by key; stable. Radix sort, least significant digit first, over the lowest num_bits.
+/// Writes the points of runs [begin, end), and those cells that begin there.
 template <class Key>
-RawVector<Entry<Key>> sorted_by_key(const RawVector<Key>& keys, int num_bits) {
-  const Digits digits(num_bits);
-  RawVector<Entry<Key>> entries(keys.size()), sorted(digits.num_places > 1 ? keys.size() : 0);
-  std::pmr::vector<std::uint32_t> next(digits.num_values());
-  const auto count = [&](int place) {
-    std::fill(next.begin(), next.end(), 0u);
-    for (const Key key : keys) ++next[digits.at(key, place)];
-    std::uint32_t sum = 0;
-    for (std::uint32_t& n : next) sum += std::exchange(n, sum);
-  };
-  count(0);
-  for (std::uint32_t i = 0; i < keys.size(); ++i) entries[next[digits.at(keys[i], 0)]++] = {keys[i], i};
-  for (int place = 1; place < digits.num_places; ++place) {
-    count(place);
-    for (const Entry<Key>& e : entries) sorted[next[digits.at(e.key, place)]++] = e;
-    entries.swap(sorted);
+void set_part(const Runs<Key>& runs, std::size_t begin, std::size_t end, PartBegin at, CellOrder& order) {
+  const Run<Key>* list = runs.list.data();
+  std::uint32_t* points = order.points.data();
+  std::int64_t* keys = order.keys.data();
+  std::uint32_t* starts = order.starts.data();
+  for (std::size_t r = begin; r < end; ++r) {
+    if (r == 0 || list[r].key != list[r - 1].key) {
+      keys[at.cell] = static_cast<std::int64_t>(list[r].key);
+      starts[at.cell++] = at.point;
+    }
+    const std::uint32_t first = runs.starts[list[r].number], last = runs.starts[list[r].number + 1];
+    for (std::uint32_t i = first; i < last; ++i) points[at.point++] = i;
   }
-  return entries;
 }
 
 template <class Key>
-void set_cells(const RawVector<Entry<Key>>& entries, CellOrder& order) {
-  const std::size_t n = entries.size();
-  std::size_t num_cells = 1;
-  for (std::size_t i = 1; i < n; ++i) num_cells += entries[i].key != entries[i - 1].key ? 1 : 0;
-  order.points.resize(n);
-  order.keys.resize(num_cells + 1);
-  order.starts.resize(num_cells + 1);
-  // Each point writes where the next cell would begin; those that begin none are overwritten.
-  std::size_t c = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    order.points[i] = entries[i].point;
-    order.keys[c] = static_cast<std::int64_t>(entries[i].key);
-    order.starts[c] = static_cast<std::uint32_t>(i);
-    c += i == 0 || entries[i].key != entries[i - 1].key ? 1 : 0;
+void set_cells(const Runs<Key>& runs, CellOrder& order) {
+  const std::size_t n = runs.list.size();
+  std::pmr::vector<PartBegin> begins((n + kPart - 1) / kPart);
+  for_each_part(n, [&](std::size_t p, std::size_t begin, std::size_t end) {
+    PartBegin sum;
+    for (std::size_t r = begin; r < end; ++r) {
+      const std::uint32_t number = runs.list[r].number;
+      sum.cell += r == 0 || runs.list[r].key != runs.list[r - 1].key ? 1 : 0;
+      sum.point += runs.starts[number + 1] - runs.starts[number];
+    }
+    begins[p] = sum;
+  });
+  PartBegin sum;
+  for (PartBegin& begin : begins) {
+    const PartBegin size = std::exchange(begin, sum);
+    sum = {sum.cell + size.cell, sum.point + size.point};
   }
-  order.keys.resize(num_cells);
-  order.starts[num_cells] = static_cast<std::uint32_t>(n);
+  order.points.resize(sum.point);
+  order.keys.resize(sum.cell);
+  order.starts.resize(sum.cell + 1);
+  for_each_part(n, [&](std::size_t p, std::size_t begin, std::size_t end) {
+    set_part(runs, begin, end, begins[p], order);
+  });
+  order.starts.back() = sum.point;
+}
+
+template <class Key>
+void set_cell_runs(const Runs<Key>& runs, CellRuns& cells) {
+  const Run<Key>* list = runs.list.data();
+  const std::size_t n = runs.list.size();
+  std::pmr::vector<std::uint32_t> begins((n + kPart - 1) / kPart);
+  for_each_part(n, [&](std::size_t p, std::size_t begin, std::size_t end) {
+    std::uint32_t num = begin == 0 ? 1 : 0;
+    for (std::size_t r = std::max<std::size_t>(1, begin); r < end; ++r)
+      num += list[r].key != list[r - 1].key ? 1 : 0;
+    begins[p] = num;
+  });
+  cells.runs.resize(n);
+  cells.keys.resize(set_begins(begins));
+  cells.starts.resize(cells.keys.size() + 1);
+  for_each_part(n, [&](std::size_t p, std::size_t begin, std::size_t end) {
+    const std::uint32_t* first = runs.starts.data();
+    std::uint32_t* next = cells.starts.data() + begins[p];
+    std::int64_t* keys = cells.keys.data() + begins[p];
+    PointSpan* spans = cells.runs.data();
+    for (std::size_t r = begin; r < end; ++r) {
+      if (r == 0 || list[r].key != list[r - 1].key) {
+        *next++ = static_cast<std::uint32_t>(r);
+        *keys++ = static_cast<std::int64_t>(list[r].key);
+      }
+      spans[r] = {first[list[r].number], first[list[r].number + 1]};
+    }
+  });
+  cells.starts.back() = static_cast<std::uint32_t>(n);
 }
 
 /// Number of cells on an axis, with one to spare at either end; min: the first.
@@ -86,7 +104,7 @@ int cell_range(const std::pmr::vector<float>& v, float per_cell, int& min) {
 
 /// Number of each point's cell.
 template <class Key>
-RawVector<Key> number_cells(const PointCloud& cloud, float per_cell, const CellOrder& order) {
+RawVector<Key> number_cells(const PointCloud& cloud, float per_cell, const CellKeys& order) {
   RawVector<Key> keys(cloud.size());
   const CellGrid grid{per_cell,
                       {order.min_cell.x(), order.min_cell.y(), order.min_cell.z()},
@@ -107,31 +125,68 @@ RawVector<Key> number_cells(const PointCloud& cloud, float per_cell, const CellO
 }
 
 template <class Key>
-void sort_into_cells(const PointCloud& cloud, float per_cell, int num_bits, CellOrder& order) {
-  set_cells(sorted_by_key(number_cells<Key>(cloud, per_cell, order), num_bits), order);
+Runs<Key> sorted_runs(const PointCloud& cloud, float per_cell, int num_bits, const CellKeys& order) {
+  Runs<Key> runs = find_runs(number_cells<Key>(cloud, per_cell, order));
+  sort_by_key(runs.list, num_bits);
+  return runs;
 }
 
-}  // namespace
-
-CellOrder order_by_cell(const PointCloud& cloud, float cell_m) {
-  CellOrder order;
-  order.cell_m = cell_m;
-  if (cloud.empty()) {
-    order.starts = {0};
-    return order;
-  }
+/// Sets where the grid lies, and calls use(runs) with the sorted runs of its cells. There must be points.
+template <class Use>
+void sort_into_cells(const PointCloud& cloud, float cell_m, CellKeys& order, Use use) {
   const float per_cell = 1.0f / cell_m;
+  order.cell_m = cell_m;
   Eigen::Vector3i& min = order.min_cell;
   order.row = cell_range(cloud.x, per_cell, min.x());
   order.layer = order.row * cell_range(cloud.y, per_cell, min.y());
   const std::int64_t num_keys = order.layer * cell_range(cloud.z, per_cell, min.z());
   const int num_bits = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(num_keys)));
   if (num_bits <= 32)
-    sort_into_cells<std::uint32_t>(cloud, per_cell, num_bits, order);
+    use(sorted_runs<std::uint32_t>(cloud, per_cell, num_bits, order));
   else
-    sort_into_cells<std::uint64_t>(cloud, per_cell, num_bits, order);
+    use(sorted_runs<std::uint64_t>(cloud, per_cell, num_bits, order));
+}
+
+}  // namespace
+
+CellOrder order_by_cell(const PointCloud& cloud, float cell_m) {
+  CellOrder order;
+  if (cloud.empty()) {
+    order.cell_m = cell_m;
+    order.starts = {0};
+    return order;
+  }
+  sort_into_cells(cloud, cell_m, order, [&order](const auto& runs) { set_cells(runs, order); });
   return order;
 }
+
+CellRuns runs_by_cell(const PointCloud& cloud, float cell_m) {
+  CellRuns cells;
+  if (cloud.empty()) {
+    cells.cell_m = cell_m;
+    cells.starts = {0};
+    return cells;
+  }
+  sort_into_cells(cloud, cell_m, cells, [&cells](const auto& runs) { set_cell_runs(runs, cells); });
+  return cells;
+}
+
+namespace {
+
+struct Columns {
+  float *x, *y, *z;
+  std::uint32_t* index;
+};
+
+template <std::size_t kNum>
+void copy_points(const PointCloud& cloud, std::size_t from, const Columns& columns, std::size_t to) {
+  std::memcpy(columns.x + to, cloud.x.data() + from, kNum * sizeof(float));
+  std::memcpy(columns.y + to, cloud.y.data() + from, kNum * sizeof(float));
+  std::memcpy(columns.z + to, cloud.z.data() + from, kNum * sizeof(float));
+  for (std::size_t k = 0; k < kNum; ++k) columns.index[to + k] = static_cast<std::uint32_t>(from + k);
+}
+
+}  // namespace
 
 PaddedPoints::PaddedPoints(const PointCloud& cloud, std::span<const std::uint32_t> order)
     : x_(order.size() + kPointPadding),
@@ -147,6 +202,28 @@ PaddedPoints::PaddedPoints(const PointCloud& cloud, std::span<const std::uint32_
       index_[k] = i;
     }
   });
+  pad();
+}
+
+PaddedPoints::PaddedPoints(const PointCloud& cloud, std::span<const PointSpan> runs, std::size_t num_points)
+    : x_(num_points + kPointPadding),
+      y_(num_points + kPointPadding),
+      z_(num_points + kPointPadding),
+      index_(num_points + kPointPadding) {
+  const Columns columns{x_.data(), y_.data(), z_.data(), index_.data()};
+  std::size_t at = 0;
+  for (const PointSpan& run : runs) {
+    // In blocks, of which the last one brings some of what follows in the cloud: the next run overwrites it.
+    std::size_t i = run.begin;
+    for (; i < run.end && i + kPointPadding <= cloud.size(); i += kPointPadding)
+      copy_points<kPointPadding>(cloud, i, columns, at + (i - run.begin));
+    for (; i < run.end; ++i) copy_points<1>(cloud, i, columns, at + (i - run.begin));
+    at += run.end - run.begin;
+  }
+  pad();
+}
+
+void PaddedPoints::pad() {
   for (RawVector<float>* v : {&x_, &y_, &z_}) std::fill_n(v->end() - kPointPadding, kPointPadding, 0.0f);
   std::fill_n(index_.end() - kPointPadding, kPointPadding, 0u);
 }

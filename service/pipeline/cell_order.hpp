@@ -15,15 +15,13 @@ namespace graspd {
 /// Cells are cubes of side cell_m, aligned to the origin of the cloud's frame, numbered row by row: the
 /// neighbours of a cell along x have the keys next to its own, and no neighbour of an occupied cell wraps to
 /// another row.
-struct CellOrder {
+struct CellKeys {
   float cell_m = 1;
   Eigen::Vector3i min_cell =
-      Eigen::Vector3i::Zero();      ///< one less than the smallest occupied cell on each axis
-  std::int64_t row = 1;             ///< from one key to the same x in the next row along y
-  std::int64_t layer = 1;           ///< and in the next layer along z
-  RawVector<std::uint32_t> points;  ///< indices into the cloud, sorted by key; stable
-  RawVector<std::int64_t> keys;     ///< of the occupied cells, ascending
-  RawVector<std::uint32_t> starts;  ///< keys.size() + 1 positions in points where a cell begins
+      Eigen::Vector3i::Zero();   ///< one less than the smallest occupied cell on each axis
+  std::int64_t row = 1;          ///< from one key to the same x in the next row along y
+  std::int64_t layer = 1;        ///< and in the next layer along z
+  RawVector<std::int64_t> keys;  ///< of the occupied cells, ascending
 
   [[nodiscard]] std::size_t num_cells() const { return keys.size(); }
   [[nodiscard]] std::int64_t key(const Eigen::Vector3i& cell) const {
@@ -33,13 +31,33 @@ struct CellOrder {
     const std::int64_t z = key / layer, y = key % layer / row, x = key % row;
     return min_cell + Eigen::Vector3i(static_cast<int>(x), static_cast<int>(y), static_cast<int>(z));
   }
+};
+
+struct CellOrder : CellKeys {
+  RawVector<std::uint32_t> points;  ///< indices into the cloud, sorted by key; stable
+  RawVector<std::uint32_t> starts;  ///< keys.size() + 1 positions in points where a cell begins
+
   [[nodiscard]] std::span<const std::uint32_t> cell(std::size_t c) const {
     return {points.data() + starts[c], points.data() + starts[c + 1]};
   }
 };
 
+/// The same order as runs of points that follow one another in the cloud: images and sorted voxels have long
+/// ones.
+struct CellRuns : CellKeys {
+  RawVector<PointSpan> runs;        ///< of points of the cloud, by key, then by point
+  RawVector<std::uint32_t> starts;  ///< keys.size() + 1 positions in runs where a cell begins
+
+  [[nodiscard]] std::span<const PointSpan> cell(std::size_t c) const {
+    return {runs.data() + starts[c], runs.data() + starts[c + 1]};
+  }
+};
+
 /// All points must be finite, and the cloud's extent less than 2^20 cells on each axis.
 [[nodiscard]] CellOrder order_by_cell(const PointCloud& cloud, float cell_m);
+
+/// Points as for order_by_cell().
+[[nodiscard]] CellRuns runs_by_cell(const PointCloud& cloud, float cell_m);
 
 /// Points of a cloud in an order of one's own, for the kernels.
 class PaddedPoints {
@@ -47,6 +65,8 @@ class PaddedPoints {
   PaddedPoints() = default;
   /// order: indices into the cloud.
   PaddedPoints(const PointCloud& cloud, std::span<const std::uint32_t> order);
+  /// The points of the runs, which are so many.
+  PaddedPoints(const PointCloud& cloud, std::span<const PointSpan> runs, std::size_t num_points);
 
   [[nodiscard]] std::size_t size() const { return x_.size() - kPointPadding; }
   /// Those at positions [from, to) of the order.
@@ -56,6 +76,8 @@ class PaddedPoints {
   [[nodiscard]] PointRange all() const { return range(0, size()); }
 
  private:
+  void pad();
+
   RawVector<float> x_, y_, z_;
   RawVector<std::uint32_t> index_;
 };

@@ -11,29 +11,44 @@ namespace graspd {
 
 namespace {
 
+/// Means of the points of cells [begin, end).
+void set_means(const PointCloud& cloud, const CellRuns& cells, std::size_t begin, std::size_t end,
+               Downsampled& out) {
+  const float *xs = cloud.x.data(), *ys = cloud.y.data(), *zs = cloud.z.data();
+  std::uint32_t* voxel = out.voxel_of_point.data();
+  for (std::size_t c = begin; c < end; ++c) {
+    const std::span<const PointSpan> runs = cells.cell(c);
+    // Sums relative to the voxel's first point: no loss of digits far from the origin.
+    const std::uint32_t first = runs.front().begin;
+    const float x = xs[first], y = ys[first], z = zs[first];
+    float sum_x = 0, sum_y = 0, sum_z = 0;
+    std::uint32_t num = 0;
+    for (const PointSpan& run : runs) {
+      num += run.end - run.begin;
+      for (std::uint32_t i = run.begin; i < run.end; ++i) {
+        sum_x += xs[i] - x;
+        sum_y += ys[i] - y;
+        sum_z += zs[i] - z;
+        voxel[i] = static_cast<std::uint32_t>(c);
+      }
+    }
+    const auto n = static_cast<float>(num);
+    out.cloud.x[c] = x + sum_x / n;
+    out.cloud.y[c] = y + sum_y / n;
+    out.cloud.z[c] = z + sum_z / n;
+  }
+}
+
 Downsampled thin_by_voxels(const PointCloud& cloud, float leaf_size_m) {
-  const CellOrder order = order_by_cell(cloud, leaf_size_m);
+  const CellRuns cells = runs_by_cell(cloud, leaf_size_m);
   Downsampled result;
   PointCloud& voxels = result.cloud;
   voxels.viewpoint = cloud.viewpoint;
-  voxels.resize(order.num_cells());
-  voxels.width = static_cast<int>(order.num_cells());
+  voxels.resize(cells.num_cells());
+  voxels.width = static_cast<int>(cells.num_cells());
   result.voxel_of_point.resize(cloud.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, order.num_cells(), 2048), [&](const auto& range) {
-    for (std::size_t c = range.begin(); c != range.end(); ++c) {
-      // Sums relative to the voxel's first point: no loss of digits far from the origin.
-      const Eigen::Vector3f first = cloud.point(order.cell(c).front());
-      Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-      for (const std::uint32_t i : order.cell(c)) {
-        sum += cloud.point(i) - first;
-        result.voxel_of_point[i] = static_cast<std::uint32_t>(c);
-      }
-      const Eigen::Vector3f mean = first + sum / static_cast<float>(order.cell(c).size());
-      voxels.x[c] = mean.x();
-      voxels.y[c] = mean.y();
-      voxels.z[c] = mean.z();
-    }
-  });
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells.num_cells(), 2048),
+                    [&](const auto& range) { set_means(cloud, cells, range.begin(), range.end(), result); });
   return result;
 }
 

@@ -4,7 +4,6 @@
 
 #include <tbb/parallel_invoke.h>
 
-#include <numeric>
 #include <utility>
 
 #include "service/pipeline/thin_out.hpp"
@@ -52,14 +51,13 @@ SparseVoxels spread_thinly(const PointCloud& voxels, float spacing_m) {
   const std::pmr::vector<std::uint32_t> chosen = thin_out(voxels, spacing_m);
   const PointCloud cloud = points_at(voxels, chosen);
   // In the query's own order, so that what is known of neighbours is near in memory.
-  CellOrder order = order_by_cell(cloud, kQueryCell);
+  const CellOrder order = order_by_cell(cloud, kQueryCell);
   SparseVoxels sparse;
   sparse.spacing_m = spacing_m;
   sparse.voxel.reserve(chosen.size());
   for (const std::uint32_t i : order.points) sparse.voxel.push_back(chosen[i]);
   sparse.cloud = points_at(cloud, order.points);
-  std::iota(order.points.begin(), order.points.end(), 0u);
-  sparse.query = BoxQuery(sparse.cloud, order);
+  sparse.query = BoxQuery(sparse.cloud, kQueryCell);
   return sparse;
 }
 

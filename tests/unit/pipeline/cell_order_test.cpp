@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 #include "tests/support/clouds.hpp"
 
@@ -57,16 +58,28 @@ void expect_no_neighbour_wraps(const CellOrder& order) {
         }
 }
 
+void expect_same_cells(const CellOrder& order, const CellRuns& cells) {
+  ASSERT_EQ(cells.num_cells(), order.num_cells());
+  for (std::size_t c = 0; c < order.num_cells(); ++c) {
+    std::vector<std::uint32_t> points;
+    for (const PointSpan& run : cells.cell(c))
+      for (std::uint32_t i = run.begin; i < run.end; ++i) points.push_back(i);
+    ASSERT_TRUE(std::ranges::equal(points, order.cell(c))) << c;
+  }
+}
+
 void expect_all(const PointCloud& cloud, float cell_m) {
   const CellOrder order = order_by_cell(cloud, cell_m);
   expect_sorted_and_complete(cloud, order);
   expect_points_inside_their_cells(cloud, order);
   expect_no_neighbour_wraps(order);
+  expect_same_cells(order, runs_by_cell(cloud, cell_m));
 }
 
 TEST(CellOrder, EmptyCloud) {
   const CellOrder order = order_by_cell({}, 0.01f);
   EXPECT_EQ(order.num_cells(), 0u);
+  EXPECT_EQ(runs_by_cell({}, 0.01f).num_cells(), 0u);
   EXPECT_EQ(order.starts, RawVector<std::uint32_t>{0});
 }
 
@@ -110,6 +123,36 @@ TEST(CellOrder, WideCloudNeedsMoreThan32BitsOfKey) {
   const CellOrder order = order_by_cell(cloud, 0.003f);
   EXPECT_GT(order.keys.back(), std::int64_t{1} << 36);
   expect_all(cloud, 0.003f);
+}
+
+/// More points than one thread sorts at a time: without runs in one cell, with short ones and with long ones.
+TEST(CellOrder, LargeCloudsAreSortedAsByAStableSort) {
+  constexpr std::size_t kNum = 150000;
+  PointCloud scattered = random_cloud(kNum, {-0.3f, -0.3f, -0.3f}, {0.3f, 0.3f, 0.3f}, 7);
+  PointCloud image = scattered;
+  for (std::size_t i = 0; i < kNum; ++i) {
+    image.x[i] = 1e-3f * static_cast<float>(i % 600) - 0.3f;
+    image.y[i] = 1e-3f * static_cast<float>(i / 600) - 0.1f;
+    image.z[i] = 0.5f + 0.2f * image.x[i];
+  }
+  for (const PointCloud* cloud : {&scattered, &image})
+    for (const float cell_m : {0.003f, 0.05f}) {
+      const CellOrder order = order_by_cell(*cloud, cell_m);
+      const auto key = [&](std::uint32_t i) {
+        return order.key({cell_index(cloud->x[i], 1 / cell_m), cell_index(cloud->y[i], 1 / cell_m),
+                          cell_index(cloud->z[i], 1 / cell_m)});
+      };
+      RawVector<std::uint32_t> expected(kNum);
+      std::iota(expected.begin(), expected.end(), 0u);
+      std::stable_sort(expected.begin(), expected.end(),
+                       [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+      ASSERT_EQ(order.points, expected);
+      ASSERT_EQ(order.starts.back(), kNum);
+      expect_same_cells(order, runs_by_cell(*cloud, cell_m));
+      for (std::size_t c = 0; c < order.num_cells(); ++c)
+        for (const std::uint32_t i : order.cell(c)) ASSERT_EQ(key(i), order.keys[c]);
+      for (std::size_t c = 1; c < order.num_cells(); ++c) ASSERT_LT(order.keys[c - 1], order.keys[c]);
+    }
 }
 
 }  // namespace

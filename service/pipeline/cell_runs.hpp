@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Runs of points in one cell, and how they are sorted by it. Included by cell_order.cpp alone.
+#pragma once
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory_resource>
+#include <utility>
+#include <vector>
+
+#include "service/pipeline/raw_vector.hpp"
+
+namespace graspd {
+
+inline constexpr std::size_t kPart = 32768;  // points or runs that one thread takes at a time
+
+/// Calls work(p, begin, end) for parts of n items; they may run beside each other.
+template <class Work>
+void for_each_part(std::size_t n, Work work) {
+  tbb::parallel_for(std::size_t{0}, (n + kPart - 1) / kPart,
+                    [&](std::size_t p) { work(p, p * kPart, std::min(n, (p + 1) * kPart)); });
+}
+
+/// From the sizes of parts to where they begin; returns the sum.
+template <class Sizes>
+std::size_t set_begins(Sizes& sizes) {
+  std::size_t sum = 0;
+  for (auto& size : sizes) sum += std::exchange(size, static_cast<std::uint32_t>(sum));
+  return sum;
+}
+
+/// Points of one cell that follow one another in the cloud: images and sorted voxels have long ones, which
+/// are sorted as one.
+template <class Key>
+struct Run {
+  Key key;
+  std::uint32_t number;
+};
+
+template <class Key>
+struct Runs {
+  RawVector<Run<Key>> list;
+  RawVector<std::uint32_t> starts;  // first point of each by its number; one more at the end
+};
+
+/// Runs among points [begin, end), numbered from r on. The first point begins one, whatever comes before it.
+template <class Key>
+void write_runs(const Key* keys, std::size_t begin, std::size_t end, std::uint32_t r, Runs<Key>& runs) {
+  Run<Key>* list = runs.list.data();
+  std::uint32_t* starts = runs.starts.data();
+  auto start = static_cast<std::uint32_t>(begin);
+  Key last = keys[begin];
+  for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
+    const Key key = keys[i];
+    r += key != last ? 1 : 0;
+    start = key != last ? i : start;
+    last = key;
+    list[r] = {key, r};
+    starts[r] = start;
+  }
+}
+
+template <class Key>
+Runs<Key> find_runs(const RawVector<Key>& keys) {
+  const std::size_t n = keys.size();
+  std::pmr::vector<std::uint32_t> begins((n + kPart - 1) / kPart);
+  for_each_part(n, [&](std::size_t p, std::size_t begin, std::size_t end) {
+    const Key* key = keys.data();
+    std::uint32_t num = 1;
+    for (std::size_t i = begin + 1; i < end; ++i) num += key[i] != key[i - 1] ? 1 : 0;
+    begins[p] = num;
+  });
+  Runs<Key> runs;
+  runs.list.resize(set_begins(begins));
+  runs.starts.resize(runs.list.size() + 1);
+  for_each_part(n, [&](std::size_t p, std::size_t begin, std::size_t end) {
+    write_runs(keys.data(), begin, end, begins[p], runs);
+  });
+  runs.starts.back() = static_cast<std::uint32_t>(n);
+  return runs;
+}
+
+/// One pass of a stable radix sort of runs over one digit of their keys, in parts that can run beside each
+/// other.
+class DigitPass {
+ public:
+  DigitPass(std::size_t num_runs, int bits)
+      : num_runs_(num_runs),
+        bits_(bits),
+        num_values_(std::size_t{1} << bits),
+        num_parts_(std::clamp<std::size_t>(num_runs / kPart, 1, kMostParts)),
+        next_(num_parts_ * num_values_) {}
+
+  template <class Key>
+  void move(int place, const Run<Key>* from, Run<Key>* to) {
+    const int shift = place * bits_;
+    const Key mask = static_cast<Key>(num_values_ - 1);
+    for_each([=, this](std::uint32_t* next, std::size_t begin, std::size_t end) {
+      std::fill_n(next, num_values_, 0u);
+      for (std::size_t i = begin; i < end; ++i) ++next[(from[i].key >> shift) & mask];
+    });
+    // By value, then by part.
+    std::uint32_t sum = 0;
+    for (std::size_t value = 0; value < num_values_; ++value)
+      for (std::size_t p = 0; p < num_parts_; ++p) sum += std::exchange(next_[p * num_values_ + value], sum);
+    for_each([=](std::uint32_t* next, std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) to[next[(from[i].key >> shift) & mask]++] = from[i];
+    });
+  }
+
+ private:
+  static constexpr std::size_t kMostParts = 4;
+
+  template <class Work>
+  void for_each(Work work) {
+    const auto part = [&](std::size_t p) {
+      work(next_.data() + p * num_values_, num_runs_ * p / num_parts_, num_runs_ * (p + 1) / num_parts_);
+    };
+    if (num_parts_ == 1)
+      part(0);
+    else
+      tbb::parallel_for(std::size_t{0}, num_parts_, part);
+  }
+
+  std::size_t num_runs_;
+  int bits_;
+  std::size_t num_values_, num_parts_;
+  RawVector<std::uint32_t> next_;  // where the next run with each value goes, by part
+};
+
+/// By key; stable. Radix sort, least significant digit first, over the lowest num_bits.
+template <class Key>
+void sort_by_key(RawVector<Run<Key>>& runs, int num_bits) {
+  constexpr int kMostBits = 13;  // counts of all values stay in the first-level cache
+  const int num_places = std::max(1, (num_bits + kMostBits - 1) / kMostBits);
+  DigitPass pass(runs.size(), (num_bits + num_places - 1) / num_places);
+  RawVector<Run<Key>> sorted(runs.size());
+  for (int place = 0; place < num_places; ++place) {
+    pass.move(place, runs.data(), sorted.data());
+    runs.swap(sorted);
+  }
+}
+
+}  // namespace graspd
