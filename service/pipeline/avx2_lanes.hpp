@@ -75,6 +75,19 @@ GRASPD_AVX2 inline __m256i floor_to_int(__m256 v) {
   return _mm256_add_epi32(truncated, _mm256_castps_si256(above));  // the mask is -1 where that rounded up
 }
 
+// What surfaces are found with.
+std::size_t keep_near(const float (&p)[3], float distance_squared, const PointRange& points,
+                      std::span<const PointSpan> spans, std::uint32_t* out);
+std::size_t copy_inside(const float (&min)[3], const float (&max)[3], const PointRange& points,
+                        std::span<const PointSpan> spans, const LocalOutput& out);
+int score_plane(const PlaneTest& test, const PlaneSample& sample);
+void solve_planes(const MomentLanes& moments, NormalLanes& normals);
+std::size_t count_bent(const NormalArrays& normals, std::uint32_t s, float limit,
+                       const std::uint32_t* indices, std::size_t n);
+std::size_t find_links(const LinkTest& test, const LinkPlace& place, const std::uint32_t* indices,
+                       std::size_t n, std::uint32_t* out);
+bool any_above(const std::int32_t* values, std::int32_t limit, const std::uint32_t* indices, std::size_t n);
+
 // What a check does with the points that it gathered.
 CircleSums sum_circle(const CircleWeights& weights, const float* xs, const float* ys, std::size_t n);
 ProfileSums sum_profile(const ProfileWeights& weights, const FacePoints& face);

@@ -9,19 +9,29 @@ namespace graspd {
 CoarseSurface::CoarseSurface(const PointCloud& cloud, float leaf_size_m)
     : cloud_(downsample(cloud, {leaf_size_m}).cloud),
       search_(cloud_, {2 * leaf_size_m}),
-      is_missing_(cloud_.size(), 1) {}
+      has_normal_(cloud_.size()),
+      normals_(cloud_.size()) {}
 
 bool CoarseSurface::has(const std::pmr::vector<std::uint8_t>& wanted) const {
   int missing = 0;
-  for (std::size_t i = 0; i < size(); ++i) missing |= wanted[i] & is_missing_[i];
+  for (std::size_t i = 0; i < size(); ++i) missing |= wanted[i] & (1 - has_normal_[i]);
   return missing == 0;
 }
 
 void CoarseSurface::prepare(const std::pmr::vector<std::uint8_t>& wanted) {
   if (has(wanted)) return;
-  for (std::size_t i = 0; i < size(); ++i) is_missing_[i] = wanted[i] == 0 ? 1 : 0;
-  neighborhoods_ = search_.find(is_missing_);
-  normals_ = estimate_normals(cloud_, neighborhoods_);
+  std::pmr::vector<std::uint8_t> skip(size());
+  for (std::size_t i = 0; i < size(); ++i) {
+    skip[i] = wanted[i] == 0 || has_normal_[i] != 0 ? 1 : 0;
+    has_normal_[i] |= wanted[i];
+  }
+  estimate_normals(cloud_, search_.find(skip), normals_);
+}
+
+Neighborhoods CoarseSurface::neighborhoods(const std::pmr::vector<std::uint8_t>& wanted) const {
+  std::pmr::vector<std::uint8_t> skip(size());
+  for (std::size_t i = 0; i < size(); ++i) skip[i] = wanted[i] == 0 ? 1 : 0;
+  return search_.find(skip);
 }
 
 }  // namespace graspd

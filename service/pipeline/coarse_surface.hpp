@@ -12,7 +12,7 @@
 
 namespace graspd {
 
-/// Neighbourhoods and normals are made of the points that need them: in a wide view most lie far below the
+/// Normals and neighbourhoods are made of the points that need them: in a wide view most lie far below the
 /// support.
 class CoarseSurface {
  public:
@@ -24,19 +24,19 @@ class CoarseSurface {
   [[nodiscard]] const PointCloud& cloud() const { return cloud_; }
   [[nodiscard]] std::size_t size() const { return cloud_.size(); }
 
-  /// Whether those of all points with wanted[i] != 0 are there.
+  /// Whether the normals of all points with wanted[i] != 0 are there.
   [[nodiscard]] bool has(const std::pmr::vector<std::uint8_t>& wanted) const;
-  /// Makes them, and of no others, unless they are there.
+  /// Makes those that are not.
   void prepare(const std::pmr::vector<std::uint8_t>& wanted);
-  /// Of the points prepared.
-  [[nodiscard]] const Neighborhoods& neighborhoods() const { return neighborhoods_; }
+  /// Zero where they are not there.
   [[nodiscard]] const Normals& normals() const { return normals_; }
+  /// Of points with wanted[i] != 0, made anew.
+  [[nodiscard]] Neighborhoods neighborhoods(const std::pmr::vector<std::uint8_t>& wanted) const;
 
  private:
   PointCloud cloud_;
   NeighborhoodSearch search_;
-  std::pmr::vector<std::uint8_t> is_missing_;
-  Neighborhoods neighborhoods_;
+  std::pmr::vector<std::uint8_t> has_normal_;
   Normals normals_;
 };
 

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "service/pipeline/point_kernels.hpp"
+
 namespace graspd {
 
 std::optional<ConfigProblem> SmoothnessConfig::validate() const {
@@ -19,16 +21,18 @@ std::optional<ConfigProblem> SmoothnessConfig::validate() const {
 std::pmr::vector<std::uint8_t> find_edge_points(const Normals& normals, const Neighborhoods& neighborhoods,
                                                 const SmoothnessConfig& config) {
   const float cos_high = std::cos(config.theta_high_deg * std::numbers::pi_v<float> / 180);
+  const NormalArrays arrays = normals.arrays();
+  const PointKernels& kernels = point_kernels();
   std::pmr::vector<std::uint8_t> is_edge(normals.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, normals.size(), 1024), [&](const auto& range) {
     for (std::size_t s = range.begin(); s != range.end(); ++s) {
-      const float nx = normals.x[s], ny = normals.y[s], nz = normals.z[s];
-      int above = 0;
-      for (const std::uint32_t i : neighborhoods.of(s))
-        above += nx * normals.x[i] + ny * normals.y[i] + nz * normals.z[i] < cos_high ? 1 : 0;
-      const bool has_normal = nx != 0 || ny != 0 || nz != 0;
-      is_edge[s] = !has_normal || static_cast<float>(above) >
-                                      config.edge_share * static_cast<float>(neighborhoods.of(s).size());
+      const std::span<const std::uint32_t> near = neighborhoods.of(s);
+      const bool has_normal = normals.x[s] != 0 || normals.y[s] != 0 || normals.z[s] != 0;
+      is_edge[s] = has_normal ? 0 : 1;
+      if (near.empty() || !has_normal) continue;
+      const std::size_t bent =
+          kernels.count_bent(arrays, static_cast<std::uint32_t>(s), cos_high, near.data(), near.size());
+      is_edge[s] = static_cast<float>(bent) > config.edge_share * static_cast<float>(near.size()) ? 1 : 0;
     }
   });
   return is_edge;

@@ -76,7 +76,9 @@ Eigen::Vector3f face_normal(const SearchInput& in, const PaddedPoints& object, s
   constexpr float kRadius = 0.015f;
   const Eigen::Vector3f p = in.cloud.point(seed), n = in.normals.at(seed);
   near.resize(object.size() + kPointPadding);
-  near.resize(point_kernels().keep_near({p.x(), p.y(), p.z()}, kRadius * kRadius, object.all(), near.data()));
+  const PointSpan whole{0, static_cast<std::uint32_t>(object.size())};
+  near.resize(point_kernels().keep_near({p.x(), p.y(), p.z()}, kRadius * kRadius, object.all(), {&whole, 1},
+                                        near.data()));
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
   for (const std::uint32_t i : near)
     if (in.normals.at(i).dot(n) > 0.8f) sum += in.normals.at(i);

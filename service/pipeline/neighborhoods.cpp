@@ -6,41 +6,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace graspd {
 namespace {
-
-/// Points of several ranges one after the other.
-class GatheredPoints {
- public:
-  void clear() { size_ = 0; }
-  void add(const PointRange& range) {
-    if (const std::size_t most = size_ + range.size + kPointPadding; x_.size() < most) {
-      const std::size_t room = std::max(most, 2 * x_.size());
-      for (RawVector<float>* v : {&x_, &y_, &z_}) v->resize(room);
-      index_.resize(room);
-    }
-    const std::size_t n = range.size + kPointPadding;  // the padding of the last range is the padding of all
-    std::copy_n(range.x, n, x_.data() + size_);
-    std::copy_n(range.y, n, y_.data() + size_);
-    std::copy_n(range.z, n, z_.data() + size_);
-    std::copy_n(range.index, n, index_.data() + size_);
-    size_ += range.size;
-  }
-  [[nodiscard]] PointRange all() const { return {x_.data(), y_.data(), z_.data(), index_.data(), size_}; }
-
- private:
-  RawVector<float> x_, y_, z_;
-  RawVector<std::uint32_t> index_;
-  std::size_t size_ = 0;
-};
 
 /// The nine rows of three cells around a cell. Keys ascend from cell to cell, so that each row's position
 /// only moves on.
 class RowCursor {
  public:
-  RowCursor(const CellOrder& order, const PaddedPoints& points, std::size_t first_cell)
-      : order_(order), points_(points) {
+  RowCursor(const CellOrder& order, std::size_t first_cell) : order_(order) {
     std::size_t i = 0;
     for (std::int64_t dz = -1; dz <= 1; ++dz)
       for (std::int64_t dy = -1; dy <= 1; ++dy) offsets_[i++] = dz * order.layer + dy * order.row;
@@ -51,35 +26,93 @@ class RowCursor {
     }
   }
 
-  /// Gathers the points around a cell; cells must ascend from call to call.
-  void move_to(std::size_t cell) {
-    around_.clear();
+  /// The points around a cell; cells must ascend from call to call.
+  std::span<const PointSpan> around(std::size_t cell) {
+    const std::int64_t* keys = order_.keys.data();
+    const std::size_t num_cells = order_.num_cells();
+    std::size_t n = 0;
     for (std::size_t i = 0; i < offsets_.size(); ++i) {
-      const std::int64_t center = order_.keys[cell] + offsets_[i];
-      std::size_t& p = positions_[i];
-      while (p < order_.num_cells() && order_.keys[p] < center - 1) ++p;
+      const std::int64_t center = keys[cell] + offsets_[i];
+      std::size_t p = positions_[i];
+      while (p < num_cells && keys[p] < center - 1) ++p;
+      positions_[i] = p;
       std::size_t end = p;
-      while (end < order_.num_cells() && order_.keys[end] <= center + 1) ++end;
-      if (p != end) around_.add(points_.range(order_.starts[p], order_.starts[end]));
+      while (end < num_cells && keys[end] <= center + 1) ++end;
+      spans_[n] = {order_.starts[p], order_.starts[end]};
+      n += p != end ? 1 : 0;
     }
+    return {spans_.data(), n};
   }
-
-  [[nodiscard]] PointRange around() const { return around_.all(); }
 
  private:
   const CellOrder& order_;
-  const PaddedPoints& points_;
   std::array<std::int64_t, 9> offsets_{};
   std::array<std::size_t, 9> positions_{};
-  GatheredPoints around_;
+  std::array<PointSpan, 9> spans_{};
 };
 
-/// The points of a cell whose neighbourhoods are wanted.
-void wanted_points(std::span<const std::uint32_t> cell, const std::pmr::vector<std::uint8_t>& skip,
-                   std::pmr::vector<std::uint32_t>& wanted) {
-  wanted.clear();
-  for (const std::uint32_t i : cell)
-    if (skip.empty() || !skip[i]) wanted.push_back(i);
+/// Points to look among: copies of those that are near enough to one of several points, or all.
+class Candidates {
+ public:
+  /// wanted: points of the cloud that may be near; size: of the spans.
+  void take(const PointCloud& cloud, std::span<const std::uint32_t> wanted, float radius_m,
+            const PointRange& points, std::span<const PointSpan> spans, std::size_t size) {
+    points_ = points;
+    spans_ = spans;
+    constexpr std::size_t kEnough = 3;  // points for which a copy pays
+    if (wanted.size() < kEnough) return;
+    if (const std::size_t room = size + 2 * kPointPadding; x_.size() < room) {
+      for (RawVector<float>* v : {&x_, &y_, &z_}) v->resize(2 * room);
+      index_.resize(2 * room);
+    }
+    float min[3], max[3];
+    set_bounds(cloud, wanted, radius_m, min, max);
+    const auto n = static_cast<std::uint32_t>(point_kernels().copy_inside(
+        min, max, points, spans, {x_.data(), y_.data(), z_.data(), index_.data()}));
+    points_ = {x_.data(), y_.data(), z_.data(), index_.data(), n};
+    whole_ = {0, n};
+    spans_ = {&whole_, 1};
+  }
+
+  [[nodiscard]] const PointRange& points() const { return points_; }
+  [[nodiscard]] std::span<const PointSpan> spans() const { return spans_; }
+
+ private:
+  /// Of a box with all that is within the radius.
+  static void set_bounds(const PointCloud& cloud, std::span<const std::uint32_t> wanted, float radius_m,
+                         float (&min)[3], float (&max)[3]) {
+    const float* coordinates[3] = {cloud.x.data(), cloud.y.data(), cloud.z.data()};
+    for (int axis = 0; axis < 3; ++axis) {
+      const float* v = coordinates[axis];
+      float low = v[wanted.front()], high = low;
+      for (const std::uint32_t i : wanted) {
+        low = std::min(low, v[i]);
+        high = std::max(high, v[i]);
+      }
+      // A little more than the radius, for the rounding of distances.
+      const float reach = 1.0001f * radius_m + 1e-6f * std::max(std::abs(low), std::abs(high));
+      min[axis] = low - reach;
+      max[axis] = high + reach;
+    }
+  }
+
+  PointRange points_{};
+  std::span<const PointSpan> spans_;
+  PointSpan whole_{};
+  RawVector<float> x_, y_, z_;
+  RawVector<std::uint32_t> index_;
+};
+
+/// Writes the points of a cell whose neighbourhoods are wanted; returns their number.
+std::size_t wanted_points(std::span<const std::uint32_t> cell, const std::pmr::vector<std::uint8_t>& skip,
+                          std::pmr::vector<std::uint32_t>& wanted) {
+  if (wanted.size() < cell.size() + 1) wanted.resize(2 * cell.size() + 1);
+  std::size_t n = 0;
+  for (const std::uint32_t i : cell) {
+    wanted[n] = i;
+    n += skip.empty() || !skip[i] ? 1 : 0;
+  }
+  return n;
 }
 
 }  // namespace
@@ -102,22 +135,25 @@ Neighborhoods NeighborhoodSearch::find(const std::pmr::vector<std::uint8_t>& ski
   tbb::parallel_for(std::size_t{0}, num_chunks, [&](std::size_t chunk) {
     const std::size_t begin = chunk * kCellsPerChunk;
     const std::size_t end = std::min(begin + kCellsPerChunk, order_.num_cells());
-    RowCursor cursor(order_, points_, begin);
+    RowCursor cursor(order_, begin);
+    Candidates candidates;
     RawVector<std::uint32_t>& list = result.storage_[chunk];
-    std::pmr::vector<std::uint32_t> wanted, done;
+    std::pmr::vector<std::uint32_t> cell, done;
     std::pmr::vector<std::size_t> ends{0};
     for (std::size_t c = begin; c < end; ++c) {
-      wanted_points(order_.cell(c), skip, wanted);
+      const std::span<const std::uint32_t> wanted(cell.data(), wanted_points(order_.cell(c), skip, cell));
       if (wanted.empty()) continue;
-      cursor.move_to(c);
-      const PointRange around = cursor.around();
-      const std::size_t most = wanted.size() * around.size + kPointPadding;
+      const std::span<const PointSpan> spans = cursor.around(c);
+      std::size_t size = 0;
+      for (const PointSpan& span : spans) size += span.end - span.begin;
+      candidates.take(cloud_, wanted, radius_m_, points_.all(), spans, size);
+      const std::size_t most = wanted.size() * size + kPointPadding;
       if (list.size() < ends.back() + most) list.resize(std::max(2 * list.size(), ends.back() + most));
       for (const std::uint32_t i : wanted) {
         const std::size_t from = ends.back();
         done.push_back(i);
         ends.push_back(from + kernels.keep_near({cloud_.x[i], cloud_.y[i], cloud_.z[i]}, radius_squared,
-                                                around, list.data() + from));
+                                                candidates.points(), candidates.spans(), list.data() + from));
       }
     }
     if (!list.empty()) std::fill_n(list.data() + ends.back(), kPointPadding, 0u);

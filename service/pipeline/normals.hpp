@@ -7,6 +7,7 @@
 
 #include "service/pipeline/neighborhoods.hpp"
 #include "service/pipeline/point_cloud.hpp"
+#include "service/pipeline/point_kernels.hpp"
 
 namespace graspd {
 
@@ -15,10 +16,16 @@ namespace graspd {
 struct Normals {
   std::pmr::vector<float> x, y, z;
 
+  Normals() = default;
+  explicit Normals(std::size_t n) : x(n), y(n), z(n) {}
+
   [[nodiscard]] std::size_t size() const { return x.size(); }
+  [[nodiscard]] NormalArrays arrays() const { return {x.data(), y.data(), z.data()}; }
   [[nodiscard]] Eigen::Vector3f at(std::size_t i) const { return {x[i], y[i], z[i]}; }
 };
 
 [[nodiscard]] Normals estimate_normals(const PointCloud& cloud, const Neighborhoods& neighborhoods);
+/// Those of points with a neighbourhood; the others stay what they are.
+void estimate_normals(const PointCloud& cloud, const Neighborhoods& neighborhoods, Normals& normals);
 
 }  // namespace graspd

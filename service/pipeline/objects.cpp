@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/pipeline/objects.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
 #include <utility>
 
+#include "service/pipeline/point_kernels.hpp"
 #include "service/pipeline/union_find.hpp"
 
 namespace graspd {
@@ -20,22 +23,50 @@ struct Border {
 };
 using Borders = std::pmr::map<std::pair<std::int32_t, std::int32_t>, Border>;
 
-Borders find_borders(const PointCloud& cloud, const Normals& normals, const Neighborhoods& neighborhoods,
-                     const std::pmr::vector<std::int32_t>& group_of_point) {
+using Groups = std::pmr::vector<std::int32_t>;
+
+constexpr std::size_t kChunk = 4096;  // points that are looked at together
+
+/// The borders that points [begin, end) have with groups of larger numbers.
+Borders borders_of(const PointCloud& cloud, const Normals& normals, const Neighborhoods& neighborhoods,
+                   const Groups& group_of_point, std::size_t begin, std::size_t end) {
+  const PointKernels& kernels = point_kernels();
   Borders borders;
-  for (std::uint32_t i = 0; i < cloud.size(); ++i) {
+  for (std::size_t i = begin; i < end; ++i) {
     const std::int32_t a = group_of_point[i];
-    if (a < 0) continue;
-    for (const std::uint32_t j : neighborhoods.of(i)) {
+    const std::span<const std::uint32_t> near = neighborhoods.of(i);
+    if (a < 0 || !kernels.any_above(group_of_point.data(), a, near.data(), near.size())) continue;
+    std::int32_t last = a;
+    Border* border = nullptr;  // with the last
+    for (const std::uint32_t j : near) {
       const std::int32_t b = group_of_point[j];
       if (b <= a) continue;
-      Border& border = borders[{a, b}];
-      ++border.pairs;
+      if (b != last) border = &borders[{a, b}];
+      last = b;
+      ++border->pairs;
       const Eigen::Vector3f across = cloud.point(i) - cloud.point(j);
-      border.across += across;
-      border.convex += (normals.at(i) - normals.at(j)).dot(across) > 0 ? 1 : 0;
+      border->across += across;
+      border->convex += (normals.at(i) - normals.at(j)).dot(across) > 0 ? 1 : 0;
     }
   }
+  return borders;
+}
+
+Borders find_borders(const PointCloud& cloud, const Normals& normals, const Neighborhoods& neighborhoods,
+                     const Groups& group_of_point) {
+  std::pmr::vector<Borders> parts((cloud.size() + kChunk - 1) / kChunk);
+  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t c) {
+    const std::size_t begin = c * kChunk, end = std::min(begin + kChunk, cloud.size());
+    parts[c] = borders_of(cloud, normals, neighborhoods, group_of_point, begin, end);
+  });
+  Borders borders;
+  for (const Borders& part : parts)
+    for (const auto& [pair, more] : part) {
+      Border& border = borders[pair];
+      border.pairs += more.pairs;
+      border.convex += more.convex;
+      border.across += more.across;
+    }
   return borders;
 }
 
@@ -67,24 +98,41 @@ std::pmr::vector<std::int32_t> merge(std::size_t num_groups, const Borders& bord
   return set_of_group;
 }
 
-/// Gives each point that has none the object of most of its neighbours.
-std::pmr::vector<std::int32_t> filled(const Neighborhoods& neighborhoods,
-                                      const std::pmr::vector<std::uint8_t>& is_support,
-                                      const std::pmr::vector<std::int32_t>& of_point) {
-  std::pmr::vector<std::int32_t> result = of_point;
-  std::pmr::map<std::int32_t, int> votes;
-  for (std::size_t i = 0; i < of_point.size(); ++i) {
-    if (of_point[i] >= 0 || (!is_support.empty() && is_support[i])) continue;
-    votes.clear();
-    for (const std::uint32_t j : neighborhoods.of(i))
-      if (of_point[j] >= 0) ++votes[of_point[j]];
-    int most = 0;
-    for (const auto& [object, count] : votes) {
-      if (count <= most) continue;
-      most = count;
-      result[i] = object;
-    }
+/// The object that most of the neighbours have, of several the one with the smallest number; -1: none has
+/// one. votes: working memory.
+std::int32_t most_frequent(std::span<const std::uint32_t> near, const Groups& of_point,
+                           std::pmr::vector<std::pair<std::int32_t, int>>& votes) {
+  votes.clear();
+  for (const std::uint32_t j : near) {
+    const std::int32_t object = of_point[j];
+    if (object < 0) continue;
+    const auto vote =
+        std::find_if(votes.begin(), votes.end(), [object](const auto& v) { return v.first == object; });
+    if (vote == votes.end())
+      votes.emplace_back(object, 1);
+    else
+      ++vote->second;
   }
+  std::pair<std::int32_t, int> best{-1, 0};
+  for (const auto& [object, count] : votes)
+    if (count > best.second || (count == best.second && object < best.first)) best = {object, count};
+  return best.first;
+}
+
+/// Gives each point that has none the object of most of its neighbours.
+Groups filled(const Neighborhoods& neighborhoods, const std::pmr::vector<std::uint8_t>& is_support,
+              const Groups& of_point) {
+  const PointKernels& kernels = point_kernels();
+  Groups result = of_point;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, of_point.size(), kChunk), [&](const auto& range) {
+    std::pmr::vector<std::pair<std::int32_t, int>> votes;
+    for (std::size_t i = range.begin(); i != range.end(); ++i) {
+      if (of_point[i] >= 0 || neighborhoods.of(i).empty() || (!is_support.empty() && is_support[i])) continue;
+      const std::span<const std::uint32_t> near = neighborhoods.of(i);
+      if (kernels.any_above(of_point.data(), -1, near.data(), near.size()))
+        result[i] = most_frequent(near, of_point, votes);
+    }
+  });
   return result;
 }
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "service/pipeline/surface_kernels.hpp"
+
 namespace graspd {
 namespace {
 
@@ -83,22 +85,23 @@ void meet_rows(const RowLimits& limits, const CellRows& rows, std::int32_t* from
 }
 
 std::size_t keep_near(const float (&p)[3], float distance_squared, const PointRange& points,
-                      std::uint32_t* out) {
+                      std::span<const PointSpan> spans, std::uint32_t* out) {
   const float px = p[0], py = p[1], pz = p[2];
   float distance[kBlock];
   std::uint32_t* end = out;
-  for (std::size_t from = 0; from < points.size; from += kBlock) {
-    const std::size_t size = std::min(kBlock, points.size - from);
-    const float *x = points.x + from, *y = points.y + from, *z = points.z + from;
-    for (std::size_t k = 0; k < size; ++k) {
-      const float dx = x[k] - px, dy = y[k] - py, dz = z[k] - pz;
-      distance[k] = dx * dx + dy * dy + dz * dz;
+  for (const PointSpan& span : spans)
+    for (std::size_t from = span.begin; from < span.end; from += kBlock) {
+      const std::size_t size = std::min(kBlock, span.end - from);
+      const float *x = points.x + from, *y = points.y + from, *z = points.z + from;
+      for (std::size_t k = 0; k < size; ++k) {
+        const float dx = px - x[k], dy = py - y[k], dz = pz - z[k];
+        distance[k] = dx * dx + dy * dy + dz * dz;
+      }
+      for (std::size_t k = 0; k < size; ++k) {
+        *end = points.index[from + k];
+        end += distance[k] <= distance_squared ? 1 : 0;
+      }
     }
-    for (std::size_t k = 0; k < size; ++k) {
-      *end = points.index[from + k];
-      end += distance[k] <= distance_squared ? 1 : 0;
-    }
-  }
   return static_cast<std::size_t>(end - out);
 }
 
@@ -235,9 +238,11 @@ std::size_t select_band(const BandLimits& limits, const BandPoints& points, std:
 }  // namespace
 
 const PointKernels& portable_kernels() {
-  static constexpr PointKernels kKernels{keep_inside, count_inside, meet_rows,   keep_near,     sum_moments,
-                                         sum_circle,  sum_profile,  find_hiders, extend_bounds, number_cells,
-                                         tag_band,    keep_depths,  select_band};
+  using namespace portable;
+  static constexpr PointKernels kKernels{keep_inside,  count_inside, meet_rows,   keep_near,   copy_inside,
+                                         sum_moments,  solve_planes, score_plane, count_bent,  find_links,
+                                         any_above,    sum_circle,   sum_profile, find_hiders, extend_bounds,
+                                         number_cells, tag_band,     keep_depths, select_band};
   return kKernels;
 }
 

@@ -30,7 +30,8 @@ struct BoxTest {
   float shift[3], min[3], max[3];
 };
 
-/// Where points in a box go, in its coordinates. There must be room for as many as there are in the spans
+/// Where points in a box go, in its coordinates or their own. There must be room for as many as there are in
+/// the spans
 /// + kPointPadding.
 struct LocalOutput {
   float *a, *f, *z;
@@ -90,6 +91,46 @@ struct Moments {
   float x, y, z, xx, xy, xz, yy, yz, zz;
 };
 
+/// Sums of kSolved neighbourhoods of so many points, side by side.
+inline constexpr std::size_t kSolved = 8;
+struct MomentLanes {
+  float x[kSolved], y[kSolved], z[kSolved], xx[kSolved], xy[kSolved], xz[kSolved], yy[kSolved], yz[kSolved],
+      zz[kSolved];
+  float count[kSolved];
+};
+struct NormalLanes {
+  float x[kSolved], y[kSolved], z[kSolved];
+};
+
+/// Unit vectors of all points.
+struct NormalArrays {
+  const float *x, *y, *z;
+};
+
+/// What links neighbours to one surface: the cosine of the angle between their normals is more than the
+/// larger one of their least cosines.
+struct LinkTest {
+  NormalArrays normals;
+  const float* least_cosine;    ///< of each point; more than 1: it takes part in no link
+  const std::uint32_t* parent;  ///< of each point in its set
+};
+
+/// A point whose links are looked for: to points [first, last) outside of the set that root stands for.
+struct LinkPlace {
+  std::uint32_t point, root, first, last;
+};
+
+/// Points with normals, and what makes one of them a plane's.
+struct PlaneSample {
+  const float *x, *y, *z;
+  NormalArrays normals;
+  std::size_t size;
+};
+struct PlaneTest {
+  float normal[3], offset;
+  float thickness, min_cosine;
+};
+
 /// A depth image and the view it was taken with.
 struct ViewImage {
   float origin[3], axes[3][3];  ///< of the view in the cloud's frame; rows: right, down, forward
@@ -143,14 +184,35 @@ struct PointKernels {
   /// Writes the cells [from, to) of each row, counted from its first, that lie within the limits; none where
   /// from >= to. There must be room for size + kPointPadding.
   void (*meet_rows)(const RowLimits& limits, const CellRows& rows, std::int32_t* from, std::int32_t* to);
-  /// Writes the indices of the points within the distance of p, in their order; returns their number. There
-  /// must be room for size + kPointPadding.
+  /// Writes the indices of the points of some spans within the distance of p, in their order; returns their
+  /// number. There must be room for as many as there are in the spans + kPointPadding.
   std::size_t (*keep_near)(const float (&p)[3], float distance_squared, const PointRange& points,
-                           std::uint32_t* out);
+                           std::span<const PointSpan> spans, std::uint32_t* out);
+  /// Copies the points of some spans with coordinates in [min, max], in their order; returns their number.
+  /// Room as for keep_near.
+  std::size_t (*copy_inside)(const float (&min)[3], const float (&max)[3], const PointRange& points,
+                             std::span<const PointSpan> spans, const LocalOutput& out);
   /// Offsets of the points with n indices from p. As many as kPointPadding more indices must be readable and
   /// be those of points. Summed in eight parts, every eighth neighbour in one, which are added in order.
   Moments (*sum_moments)(const float (&p)[3], const float* x, const float* y, const float* z,
                          const std::uint32_t* indices, std::size_t n);
+  /// Normals of the planes through neighbourhoods, from their moments; zero where there is no plane.
+  void (*solve_planes)(const MomentLanes& moments, NormalLanes& normals);
+  /// Points of the sample nearer to the plane than its thickness and with normals like its own, less those
+  /// more than three times the thickness behind it.
+  int (*score_plane)(const PlaneTest& test, const PlaneSample& sample);
+  /// How many of n points, by their indices, have a normal with a cosine to that of the point s less than the
+  /// limit. Indices and points as for sum_moments.
+  std::size_t (*count_bent)(const NormalArrays& normals, std::uint32_t s, float limit,
+                            const std::uint32_t* indices, std::size_t n);
+  /// Writes those of n points, by their indices, that the point is linked to, in their order; returns their
+  /// number. There must be room for n + kPointPadding; indices as for sum_moments. Of parents it reads those
+  /// in [first, last) alone: others may change meanwhile.
+  std::size_t (*find_links)(const LinkTest& test, const LinkPlace& place, const std::uint32_t* indices,
+                            std::size_t n, std::uint32_t* out);
+  /// Whether one of n points, by their indices, has a value above the limit. Indices as for sum_moments.
+  bool (*any_above)(const std::int32_t* values, std::int32_t limit, const std::uint32_t* indices,
+                    std::size_t n);
   /// Summed in four parts, every fourth point in one, which are added in order. As many as kPointPadding more
   /// points must be readable.
   CircleSums (*sum_circle)(const CircleWeights& weights, const float* x, const float* y, std::size_t n);

@@ -95,23 +95,25 @@ GRASPD_AVX2 std::size_t count_inside(const BoxTest& test, const PointRange& poin
   return n;
 }
 
-GRASPD_AVX2 std::size_t keep_near(const float (&p)[3], float distance_squared, const PointRange& points,
-                                  std::uint32_t* out) {
-  const __m256 px = _mm256_set1_ps(p[0]), py = _mm256_set1_ps(p[1]), pz = _mm256_set1_ps(p[2]),
-               most = _mm256_set1_ps(distance_squared);
-  std::size_t n = 0;
-  for (std::size_t k = 0; k < points.size; k += 8) {
-    const __m256 dx = _mm256_sub_ps(_mm256_loadu_ps(points.x + k), px),
-                 dy = _mm256_sub_ps(_mm256_loadu_ps(points.y + k), py),
-                 dz = _mm256_sub_ps(_mm256_loadu_ps(points.z + k), pz);
-    const __m256 distance =
-        _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(dx, dx), _mm256_mul_ps(dy, dy)), _mm256_mul_ps(dz, dz));
-    const unsigned mask =
-        valid_lanes(_mm256_movemask_ps(_mm256_cmp_ps(distance, most, _CMP_LE_OQ)), k, points.size);
-    store_index(out + n, points.index + k, lanes_of(mask));
-    n += static_cast<std::size_t>(std::popcount(mask));
+/// Sums of the eight lanes of eight vectors, each in the order of its lanes.
+GRASPD_AVX2 inline __m256 sums_of_lanes(const __m256* v) {
+  __m256 pairs[8], fours[8];
+  for (int i = 0; i < 4; ++i) {
+    pairs[2 * i] = _mm256_unpacklo_ps(v[2 * i], v[2 * i + 1]);
+    pairs[2 * i + 1] = _mm256_unpackhi_ps(v[2 * i], v[2 * i + 1]);
   }
-  return n;
+  // Of the vectors 0 to 3 and 4 to 7 the lanes 0 and 4, 1 and 5, and so on.
+  for (int i = 0; i < 8; i += 4)
+    for (int k = 0; k < 2; ++k) {
+      fours[i + 2 * k] = _mm256_shuffle_ps(pairs[i + k], pairs[i + k + 2], 0x44);
+      fours[i + 2 * k + 1] = _mm256_shuffle_ps(pairs[i + k], pairs[i + k + 2], 0xee);
+    }
+  __m256 sum = _mm256_setzero_ps();
+  for (int lane = 0; lane < 4; ++lane)
+    sum = _mm256_add_ps(sum, _mm256_permute2f128_ps(fours[lane], fours[lane + 4], 0x20));
+  for (int lane = 0; lane < 4; ++lane)
+    sum = _mm256_add_ps(sum, _mm256_permute2f128_ps(fours[lane], fours[lane + 4], 0x31));
+  return sum;
 }
 
 GRASPD_AVX2 Moments sum_moments(const float (&p)[3], const float* x, const float* y, const float* z,
@@ -136,9 +138,9 @@ GRASPD_AVX2 Moments sum_moments(const float (&p)[3], const float* x, const float
     sum[7] = _mm256_add_ps(sum[7], _mm256_mul_ps(dy, dz));
     sum[8] = _mm256_add_ps(sum[8], _mm256_mul_ps(dz, dz));
   }
-  float total[9];
-  for (int m = 0; m < 9; ++m) total[m] = sum_in_order(sum[m]);
-  return {total[0], total[1], total[2], total[3], total[4], total[5], total[6], total[7], total[8]};
+  alignas(32) float m[8];
+  _mm256_store_ps(m, sums_of_lanes(sum));
+  return {m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], sum_in_order(sum[8])};
 }
 
 GRASPD_AVX2 void extend_bounds(const float* v, std::size_t n, float& low, float& high) {
@@ -213,9 +215,10 @@ GRASPD_AVX2 void number_cells(const CellGrid& grid, const float* x, const float*
 }  // namespace
 
 const PointKernels* avx2_kernels() {
-  static constexpr PointKernels kKernels{keep_inside, count_inside, meet_rows,   keep_near,     sum_moments,
-                                         sum_circle,  sum_profile,  find_hiders, extend_bounds, number_cells,
-                                         tag_band,    keep_depths,  select_band};
+  static constexpr PointKernels kKernels{keep_inside,  count_inside, meet_rows,   keep_near,   copy_inside,
+                                         sum_moments,  solve_planes, score_plane, count_bent,  find_links,
+                                         any_above,    sum_circle,   sum_profile, find_hiders, extend_bounds,
+                                         number_cells, tag_band,     keep_depths, select_band};
   static const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("popcnt");
   return has_avx2 ? &kKernels : nullptr;
 }

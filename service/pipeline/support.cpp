@@ -12,6 +12,7 @@
 #include <random>
 
 #include "service/pipeline/coarse_surface.hpp"
+#include "service/pipeline/point_kernels.hpp"
 #include "service/pipeline/union_find.hpp"
 
 namespace graspd {
@@ -67,17 +68,11 @@ Sample take_sample(CoarseSurface& coarse) {
 
 /// Inliers less the points that lie behind the plane, where a support that hides what is behind it has none.
 int plane_score(const Sample& sample, const Plane& plane, float thickness_m, float min_cosine) {
-  const float nx = plane.normal.x(), ny = plane.normal.y(), nz = plane.normal.z(), offset = plane.offset_m;
-  const float *x = sample.points.x.data(), *y = sample.points.y.data(), *z = sample.points.z.data();
-  const float *u = sample.normals.x.data(), *v = sample.normals.y.data(), *w = sample.normals.z.data();
-  int score = 0;
-  for (std::size_t i = 0; i < sample.points.size(); ++i) {
-    const float height = nx * x[i] + ny * y[i] + nz * z[i] + offset;
-    const float cosine = nx * u[i] + ny * v[i] + nz * w[i];
-    score += int{std::abs(height) < thickness_m} & int{cosine > min_cosine};
-    score -= int{height < -3 * thickness_m};
-  }
-  return score;
+  const PointCloud& points = sample.points;
+  const Eigen::Vector3f& n = plane.normal;
+  return point_kernels().score_plane(
+      {{n.x(), n.y(), n.z()}, plane.offset_m, thickness_m, min_cosine},
+      {points.x.data(), points.y.data(), points.z.data(), sample.normals.arrays(), points.size()});
 }
 
 std::optional<Plane> plane_through(const Sample& sample, const std::array<std::size_t, 3>& at,
@@ -150,11 +145,12 @@ std::size_t connected_points(const CoarseSurface& coarse, const Plane& plane, co
       points_within(heights_above(plane, coarse.cloud()), 1.5f * limits.thickness_m);
   for (std::size_t i = 0; i < belongs.size(); ++i)
     if (belongs[i] != 0 && plane.normal.dot(coarse.normals().at(i)) <= limits.min_cosine) belongs[i] = 0;
+  const Neighborhoods neighborhoods = coarse.neighborhoods(belongs);
   UnionFind sets(coarse.size());
   std::pmr::vector<std::size_t> count(coarse.size());
   for (std::uint32_t i = 0; i < coarse.size(); ++i) {
     if (belongs[i] == 0) continue;
-    for (const std::uint32_t j : coarse.neighborhoods().of(i))
+    for (const std::uint32_t j : neighborhoods.of(i))
       if (j > i && belongs[j] != 0) sets.unite(i, j);
   }
   std::size_t most = 0;
@@ -210,17 +206,55 @@ float support_thickness(const Eigen::Vector3f& p, const Eigen::Vector3f& viewpoi
 
 namespace {
 
+/// What tells points of the support: those lower than least_m, or than their own thickness.
+struct Heights {
+  const PointCloud& cloud;
+  const Plane& plane;
+  float least_m, per_m;
+};
+
+/// 1 for each of points [begin, end) that is lower than least_m, and for each that may be lower than its
+/// thickness: no distance is more than the sum of its coordinates.
+void compare_heights(const Heights& h, std::size_t begin, std::size_t end, std::uint8_t* is_lower,
+                     std::uint8_t* may_be_lower) {
+  const float nx = h.plane.normal.x(), ny = h.plane.normal.y(), nz = h.plane.normal.z(),
+              offset = h.plane.offset_m;
+  const float vx = h.cloud.viewpoint.x(), vy = h.cloud.viewpoint.y(), vz = h.cloud.viewpoint.z();
+  const float least = h.least_m, per_m = h.per_m;
+  const float *x = h.cloud.x.data() + begin, *y = h.cloud.y.data() + begin, *z = h.cloud.z.data() + begin;
+  constexpr std::size_t kBlock = 64;
+  int lower[kBlock], may[kBlock];
+  for (std::size_t from = 0; from < end - begin; from += kBlock) {
+    const std::size_t size = std::min(kBlock, end - begin - from);
+    // Summed as Plane::height() does it.
+    for (std::size_t k = 0; k < size; ++k) {
+      const float px = x[from + k], py = y[from + k], pz = z[from + k];
+      const float height = nx * px + (ny * py + nz * pz) + offset;
+      const float most = std::abs(px - vx) + std::abs(py - vy) + std::abs(pz - vz);
+      lower[k] = int{height < least};
+      may[k] = int{height < least + per_m * most};
+    }
+    for (std::size_t k = 0; k < size; ++k) {
+      is_lower[begin + from + k] = static_cast<std::uint8_t>(lower[k]);
+      may_be_lower[begin + from + k] = static_cast<std::uint8_t>(may[k]);
+    }
+  }
+}
+
 std::pmr::vector<std::uint8_t> points_of(const Support& support, const PointCloud& cloud,
                                          const SupportConfig& config) {
-  const float least = support_thickness(cloud.viewpoint, cloud.viewpoint, support.sigma_m, config);
+  const Heights heights{cloud, support.plane,
+                        support_thickness(cloud.viewpoint, cloud.viewpoint, support.sigma_m, config),
+                        config.thickness_per_m};
+  RawVector<std::uint8_t> may_belong(cloud.size());
   std::pmr::vector<std::uint8_t> is_support(cloud.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cloud.size(), 8192), [&](const auto& range) {
+    compare_heights(heights, range.begin(), range.end(), is_support.data(), may_belong.data());
     for (std::size_t i = range.begin(); i != range.end(); ++i) {
+      if (is_support[i] == may_belong[i]) continue;
       const Eigen::Vector3f p = cloud.point(i);
-      const float height = support.plane.height(p);
-      const bool belongs =
-          height < least || height < support_thickness(p, cloud.viewpoint, support.sigma_m, config);
-      is_support[i] = belongs ? 1 : 0;
+      const float thickness = support_thickness(p, cloud.viewpoint, support.sigma_m, config);
+      is_support[i] = support.plane.height(p) < thickness ? 1 : 0;
     }
   });
   return is_support;

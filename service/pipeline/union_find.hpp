@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory_resource>
 #include <numeric>
+#include <span>
 #include <vector>
 
 namespace graspd {
@@ -29,6 +30,14 @@ class UnionFind {
     else
       parent_[a] = b;
   }
+
+  /// Afterwards the parent of each member is its representative. Parents are never larger than their
+  /// children.
+  void flatten() {
+    for (std::uint32_t& parent : parent_) parent = parent_[parent];
+  }
+
+  [[nodiscard]] std::span<const std::uint32_t> parents() const { return parent_; }
 
  private:
   std::pmr::vector<std::uint32_t> parent_;

@@ -66,7 +66,7 @@ void count_inside(const PointKernels& kernels, Block& b) {
 
 void keep_near(const PointKernels& kernels, Block& b) {
   constexpr float kCenter[3] = {0.01f, 0, -0.02f};
-  benchmark::DoNotOptimize(kernels.keep_near(kCenter, 0.05f * 0.05f, b.points(), b.out.data()));
+  benchmark::DoNotOptimize(kernels.keep_near(kCenter, 0.05f * 0.05f, b.points(), {&kWhole, 1}, b.out.data()));
 }
 
 void sum_moments(const PointKernels& kernels, Block& b) {

@@ -33,24 +33,29 @@ TEST(CoarseSurface, PreparesTheSameAsForAllPoints) {
     EXPECT_FALSE(coarse.has(wanted));
     coarse.prepare(wanted);
     EXPECT_TRUE(coarse.has(wanted));
-    for (std::size_t i = 0; i < coarse.size(); i += step) {
-      ASSERT_EQ(coarse.normals().at(i), normals.at(i)) << i << " of every " << step;
-      ASSERT_TRUE(std::ranges::equal(coarse.neighborhoods().of(i), neighborhoods.of(i)));
+    const Neighborhoods some = coarse.neighborhoods(wanted);
+    for (std::size_t i = 0; i < coarse.size(); ++i) {
+      if (wanted[i] != 0) {
+        ASSERT_EQ(coarse.normals().at(i), normals.at(i)) << i << " of every " << step;
+        ASSERT_TRUE(std::ranges::equal(some.of(i), neighborhoods.of(i)));
+      } else {
+        ASSERT_TRUE(some.of(i).empty());
+      }
     }
   }
 }
 
-TEST(CoarseSurface, WhatIsThereIsNotMadeAgain) {
+TEST(CoarseSurface, WhatIsThereStaysAndTheRestIsAdded) {
   CoarseSurface coarse(finite_points(render(three_objects()).cloud), kLeaf);
   coarse.prepare(every(2, coarse.size()));
-  const float* normals = coarse.normals().x.data();
   EXPECT_TRUE(coarse.has(every(4, coarse.size())));
-  coarse.prepare(every(4, coarse.size()));
-  EXPECT_EQ(coarse.normals().x.data(), normals);
-  EXPECT_TRUE(coarse.has(every(2, coarse.size())));
   EXPECT_FALSE(coarse.has(every(3, coarse.size())));
+  EXPECT_EQ(coarse.normals().at(3), Eigen::Vector3f::Zero());
+  const Eigen::Vector3f second = coarse.normals().at(2);
   coarse.prepare(every(3, coarse.size()));
-  EXPECT_FALSE(coarse.has(every(2, coarse.size()))) << "others are lost";
+  EXPECT_TRUE(coarse.has(every(3, coarse.size())));
+  EXPECT_TRUE(coarse.has(every(2, coarse.size())));
+  EXPECT_EQ(coarse.normals().at(2), second);
 }
 
 TEST(CoarseSurface, EmptyCloud) {

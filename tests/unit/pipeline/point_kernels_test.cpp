@@ -154,7 +154,7 @@ TEST(PointKernels, KeepWhatIsNear) {
     }
     for (const Form& form : forms()) {
       std::pmr::vector<std::uint32_t> near(size + kPointPadding + 1, kUntouched);
-      const std::size_t n = form.kernels->keep_near(p, 0.5f, points.range(), near.data());
+      const std::size_t n = form.kernels->keep_near(p, 0.5f, points.range(), points.spans(), near.data());
       EXPECT_EQ(near.back(), kUntouched);
       near.resize(n);
       EXPECT_EQ(near, expected) << form.name << " " << size;

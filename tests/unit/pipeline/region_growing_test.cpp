@@ -186,6 +186,29 @@ TEST(RegionGrowing, ExcludedPointsAreNoBridge) {
   }
 }
 
+/// More points than are linked at a time, in an order that puts most neighbours into other parts.
+TEST(RegionGrowing, LinksAcrossThePartsOfALargeCloud) {
+  const PointCloud plane = grid_patch({0, 0, 0.5f}, {0.003f, 0, 0}, {0, 0.003f, 0}, 180, 160);
+  const std::size_t n = plane.size();
+  ASSERT_GT(n, 3 * 8192u);
+  PointCloud spread;
+  for (std::size_t i = 0; i < n; ++i) spread.push_back(plane.point(i * 7 % n));
+  for (const PointCloud* cloud : {&plane, static_cast<const PointCloud*>(&spread)}) {
+    const Input in(*cloud, {4, 15, 0.2f});
+    EXPECT_EQ(in.grow().num_labels, 1);
+    // Two halves and what is between them, wide enough to part them.
+    std::pmr::vector<std::uint8_t> excluded(n);
+    for (std::size_t i = 0; i < n; ++i) excluded[i] = std::abs(cloud->x[i] - 0.27f) < 0.006f ? 1 : 0;
+    const Labels labels = in.grow(excluded);
+    EXPECT_EQ(labels.num_labels, 2);
+    const std::size_t first = excluded[0] ? 1 : 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const bool is_same_half = (cloud->x[i] < 0.27f) == (cloud->x[first] < 0.27f);
+      ASSERT_EQ(labels.of_point[i], excluded[i] ? -1 : is_same_half ? 0 : 1) << i;
+    }
+  }
+}
+
 TEST(RegionGrowing, LabelsCountFromTheFirstPoint) {
   const Labels labels = Input(box_on_plane(), thresholds(4, 15)).grow();
   std::int32_t next = 0;

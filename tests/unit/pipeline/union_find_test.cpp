@@ -27,5 +27,12 @@ TEST(UnionFind, RepresentativeIsTheSmallestWhateverTheOrder) {
   }
 }
 
+TEST(UnionFind, FlattenedParentsAreRepresentatives) {
+  UnionFind sets(100);
+  for (std::uint32_t i = 99; i >= 10; --i) sets.unite(i, i - 10);  // ten chains of ten
+  sets.flatten();
+  for (std::uint32_t i = 0; i < 100; ++i) EXPECT_EQ(sets.parents()[i], i % 10);
+}
+
 }  // namespace
 }  // namespace graspd

@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The portable form of the kernels that surfaces are found with. Included by it and by point_kernels.cpp
+// alone.
+#pragma once
+#include "service/pipeline/point_kernels.hpp"
+
+namespace graspd::portable {
+
+std::size_t copy_inside(const float (&min)[3], const float (&max)[3], const PointRange& points,
+                        std::span<const PointSpan> spans, const LocalOutput& out);
+int score_plane(const PlaneTest& test, const PlaneSample& sample);
+void solve_planes(const MomentLanes& moments, NormalLanes& normals);
+std::size_t count_bent(const NormalArrays& normals, std::uint32_t s, float limit,
+                       const std::uint32_t* indices, std::size_t n);
+std::size_t find_links(const LinkTest& test, const LinkPlace& place, const std::uint32_t* indices,
+                       std::size_t n, std::uint32_t* out);
+bool any_above(const std::int32_t* values, std::int32_t limit, const std::uint32_t* indices, std::size_t n);
+
+}  // namespace graspd::portable
