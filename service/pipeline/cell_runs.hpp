@@ -134,6 +134,8 @@ class DigitPass {
 /// By key; stable. Radix sort, least significant digit first, over the lowest num_bits.
 template <class Key>
 void sort_by_key(RawVector<Run<Key>>& runs, int num_bits) {
+  // Points that come from voxels of the same grid, for example.
+  if (std::ranges::is_sorted(runs, {}, &Run<Key>::key)) return;
   constexpr int kMostBits = 13;  // counts of all values stay in the first-level cache
   const int num_places = std::max(1, (num_bits + kMostBits - 1) / kMostBits);
   DigitPass pass(runs.size(), (num_bits + num_places - 1) / num_places);

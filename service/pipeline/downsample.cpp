@@ -25,12 +25,13 @@ void set_means(const PointCloud& cloud, const CellRuns& cells, std::size_t begin
     std::uint32_t num = 0;
     for (const PointSpan& run : runs) {
       num += run.end - run.begin;
-      for (std::uint32_t i = run.begin; i < run.end; ++i) {
+      std::uint32_t i = run.begin;
+      do {
         sum_x += xs[i] - x;
         sum_y += ys[i] - y;
         sum_z += zs[i] - z;
         voxel[i] = static_cast<std::uint32_t>(c);
-      }
+      } while (++i != run.end);
     }
     const auto n = static_cast<float>(num);
     out.cloud.x[c] = x + sum_x / n;

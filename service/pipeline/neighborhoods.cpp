@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/pipeline/neighborhoods.hpp"
 
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -34,6 +35,7 @@ class RowCursor {
     for (std::size_t i = 0; i < offsets_.size(); ++i) {
       const std::int64_t center = keys[cell] + offsets_[i];
       std::size_t p = positions_[i];
+      while (p + kStride < num_cells && keys[p + kStride] < center - 1) p += kStride;
       while (p < num_cells && keys[p] < center - 1) ++p;
       positions_[i] = p;
       std::size_t end = p;
@@ -45,6 +47,8 @@ class RowCursor {
   }
 
  private:
+  static constexpr std::size_t kStride = 8;  // cells that are passed over at once where few are asked for
+
   const CellOrder& order_;
   std::array<std::int64_t, 9> offsets_{};
   std::array<std::size_t, 9> positions_{};
@@ -103,16 +107,28 @@ class Candidates {
   RawVector<std::uint32_t> index_;
 };
 
-/// Writes the points of a cell whose neighbourhoods are wanted; returns their number.
-std::size_t wanted_points(std::span<const std::uint32_t> cell, const std::pmr::vector<std::uint8_t>& skip,
-                          std::pmr::vector<std::uint32_t>& wanted) {
-  if (wanted.size() < cell.size() + 1) wanted.resize(2 * cell.size() + 1);
+/// Working memory of one thread, kept from chunk to chunk.
+struct Workspace {
+  Candidates candidates;
+  std::pmr::vector<std::uint32_t> wanted, done;  // points: of the cell, and those that have a list
+  std::pmr::vector<std::size_t> ends;            // of their lists; one more at the beginning
+  RawVector<std::uint32_t> lists;                // one after the other
+};
+
+/// Sets the points of a cell whose neighbourhoods are wanted.
+std::span<const std::uint32_t> wanted_points(std::span<const std::uint32_t> cell,
+                                             const std::pmr::vector<std::uint8_t>& skip,
+                                             std::pmr::vector<std::uint32_t>& wanted) {
+  if (skip.empty()) return cell;
+  if (wanted.size() < cell.size()) wanted.resize(2 * cell.size());
+  const std::uint8_t* skipped = skip.data();
+  std::uint32_t* to = wanted.data();
   std::size_t n = 0;
   for (const std::uint32_t i : cell) {
-    wanted[n] = i;
-    n += skip.empty() || !skip[i] ? 1 : 0;
+    to[n] = i;
+    n += skipped[i] == 0 ? 1 : 0;
   }
-  return n;
+  return {to, n};
 }
 
 }  // namespace
@@ -131,35 +147,39 @@ Neighborhoods NeighborhoodSearch::find(const std::pmr::vector<std::uint8_t>& ski
   result.storage_.resize(num_chunks);
   const float radius_squared = radius_m_ * radius_m_;
   const PointKernels& kernels = point_kernels();
+  tbb::enumerable_thread_specific<Workspace, std::pmr::polymorphic_allocator<Workspace>> workspaces;
 
   tbb::parallel_for(std::size_t{0}, num_chunks, [&](std::size_t chunk) {
     const std::size_t begin = chunk * kCellsPerChunk;
     const std::size_t end = std::min(begin + kCellsPerChunk, order_.num_cells());
     RowCursor cursor(order_, begin);
-    Candidates candidates;
-    RawVector<std::uint32_t>& list = result.storage_[chunk];
-    std::pmr::vector<std::uint32_t> cell, done;
-    std::pmr::vector<std::size_t> ends{0};
+    Workspace& w = workspaces.local();
+    w.done.clear();
+    w.ends.assign(1, 0);
     for (std::size_t c = begin; c < end; ++c) {
-      const std::span<const std::uint32_t> wanted(cell.data(), wanted_points(order_.cell(c), skip, cell));
+      const std::span<const std::uint32_t> wanted = wanted_points(order_.cell(c), skip, w.wanted);
       if (wanted.empty()) continue;
       const std::span<const PointSpan> spans = cursor.around(c);
       std::size_t size = 0;
       for (const PointSpan& span : spans) size += span.end - span.begin;
-      candidates.take(cloud_, wanted, radius_m_, points_.all(), spans, size);
-      const std::size_t most = wanted.size() * size + kPointPadding;
-      if (list.size() < ends.back() + most) list.resize(std::max(2 * list.size(), ends.back() + most));
+      w.candidates.take(cloud_, wanted, radius_m_, points_.all(), spans, size);
+      const std::size_t most = w.ends.back() + wanted.size() * size + kPointPadding;
+      if (w.lists.size() < most) w.lists.resize(2 * most);
       for (const std::uint32_t i : wanted) {
-        const std::size_t from = ends.back();
-        done.push_back(i);
-        ends.push_back(from + kernels.keep_near({cloud_.x[i], cloud_.y[i], cloud_.z[i]}, radius_squared,
-                                                candidates.points(), candidates.spans(), list.data() + from));
+        const std::size_t from = w.ends.back();
+        w.done.push_back(i);
+        w.ends.push_back(from + kernels.keep_near({cloud_.x[i], cloud_.y[i], cloud_.z[i]}, radius_squared,
+                                                  w.candidates.points(), w.candidates.spans(),
+                                                  w.lists.data() + from));
       }
     }
-    if (!list.empty()) std::fill_n(list.data() + ends.back(), kPointPadding, 0u);
-    // Only now, because the list moves while it grows.
-    for (std::size_t k = 0; k < done.size(); ++k)
-      result.lists_[done[k]] = {list.data() + ends[k], list.data() + ends[k + 1]};
+    if (w.done.empty()) return;
+    RawVector<std::uint32_t>& list = result.storage_[chunk];
+    list.resize(w.ends.back() + kPointPadding);
+    std::copy_n(w.lists.data(), w.ends.back(), list.data());
+    std::fill_n(list.data() + w.ends.back(), kPointPadding, 0u);
+    for (std::size_t k = 0; k < w.done.size(); ++k)
+      result.lists_[w.done[k]] = {list.data() + w.ends[k], list.data() + w.ends[k + 1]};
   });
   return result;
 }
