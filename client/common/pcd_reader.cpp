@@ -168,12 +168,12 @@ Points read_points(const PcdHeader& header, std::string_view data) {
   return points;
 }
 
-std::pmr::vector<float> coordinates(const PcdHeader& header, const Points& points, const char* name) {
+RawVector<float> coordinates(const PcdHeader& header, const Points& points, const char* name) {
   const PcdField* field = header.find(name);
   if (!field) fail(std::string("has no field ") + name);
   if (field->type != 'F') fail(std::string("its field ") + name + " is not of a floating-point type");
   const Column column = points.column(header, *field);
-  std::pmr::vector<float> values(header.points());
+  RawVector<float> values(header.points());
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = column.real(i);
   return values;
 }

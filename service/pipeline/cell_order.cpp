@@ -95,7 +95,7 @@ void set_cell_runs(const Runs<Key>& runs, CellRuns& cells) {
 }
 
 /// Number of cells on an axis, with one to spare at either end; min: the first.
-int cell_range(const std::pmr::vector<float>& v, float per_cell, int& min) {
+int cell_range(const RawVector<float>& v, float per_cell, int& min) {
   float low = v.front(), high = v.front();
   point_kernels().extend_bounds(v.data(), v.size(), low, high);
   min = cell_index(low, per_cell) - 1;
@@ -171,23 +171,6 @@ CellRuns runs_by_cell(const PointCloud& cloud, float cell_m) {
   return cells;
 }
 
-namespace {
-
-struct Columns {
-  float *x, *y, *z;
-  std::uint32_t* index;
-};
-
-template <std::size_t kNum>
-void copy_points(const PointCloud& cloud, std::size_t from, const Columns& columns, std::size_t to) {
-  std::memcpy(columns.x + to, cloud.x.data() + from, kNum * sizeof(float));
-  std::memcpy(columns.y + to, cloud.y.data() + from, kNum * sizeof(float));
-  std::memcpy(columns.z + to, cloud.z.data() + from, kNum * sizeof(float));
-  for (std::size_t k = 0; k < kNum; ++k) columns.index[to + k] = static_cast<std::uint32_t>(from + k);
-}
-
-}  // namespace
-
 PaddedPoints::PaddedPoints(const PointCloud& cloud, std::span<const std::uint32_t> order)
     : x_(order.size() + kPointPadding),
       y_(order.size() + kPointPadding),
@@ -210,15 +193,32 @@ PaddedPoints::PaddedPoints(const PointCloud& cloud, std::span<const PointSpan> r
       y_(num_points + kPointPadding),
       z_(num_points + kPointPadding),
       index_(num_points + kPointPadding) {
-  const Columns columns{x_.data(), y_.data(), z_.data(), index_.data()};
-  std::size_t at = 0;
+  const float *xs = cloud.x.data(), *ys = cloud.y.data(), *zs = cloud.z.data();
+  float *x = x_.data(), *y = y_.data(), *z = z_.data();
+  std::uint32_t* index = index_.data();
+  const std::size_t last_block = cloud.size() < kPointPadding ? 0 : cloud.size() - kPointPadding + 1;
   for (const PointSpan& run : runs) {
+    std::size_t i = run.begin, to = 0;
     // In blocks, of which the last one brings some of what follows in the cloud: the next run overwrites it.
-    std::size_t i = run.begin;
-    for (; i < run.end && i + kPointPadding <= cloud.size(); i += kPointPadding)
-      copy_points<kPointPadding>(cloud, i, columns, at + (i - run.begin));
-    for (; i < run.end; ++i) copy_points<1>(cloud, i, columns, at + (i - run.begin));
-    at += run.end - run.begin;
+    constexpr std::size_t kShort = 3;
+    if (run.end - run.begin > kShort)
+      for (; i < run.end && i < last_block; i += kPointPadding, to += kPointPadding) {
+        std::memcpy(x + to, xs + i, kPointPadding * sizeof(float));
+        std::memcpy(y + to, ys + i, kPointPadding * sizeof(float));
+        std::memcpy(z + to, zs + i, kPointPadding * sizeof(float));
+        for (std::size_t k = 0; k < kPointPadding; ++k) index[to + k] = static_cast<std::uint32_t>(i + k);
+      }
+    for (; i < run.end; ++i, ++to) {
+      x[to] = xs[i];
+      y[to] = ys[i];
+      z[to] = zs[i];
+      index[to] = static_cast<std::uint32_t>(i);
+    }
+    const std::size_t size = run.end - run.begin;
+    x += size;
+    y += size;
+    z += size;
+    index += size;
   }
   pad();
 }

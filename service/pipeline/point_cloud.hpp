@@ -9,12 +9,14 @@
 #include <span>
 #include <vector>
 
+#include "service/pipeline/raw_vector.hpp"
+
 namespace graspd {
 
 /// Points as a structure of arrays [m], in the cloud's frame. Missing points are NaN. Holds coordinates
-/// alone: colours and labels never reach the pipeline.
+/// alone: colours and labels never reach the pipeline. What resize() adds has no value yet.
 struct PointCloud {
-  std::pmr::vector<float> x, y, z;
+  RawVector<float> x, y, z;
   /// Organized clouds: size() == width * height, row by row. Unorganized: height is 1.
   int width = 0;
   int height = 1;

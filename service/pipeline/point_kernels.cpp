@@ -239,10 +239,10 @@ std::size_t select_band(const BandLimits& limits, const BandPoints& points, std:
 
 const PointKernels& portable_kernels() {
   using namespace portable;
-  static constexpr PointKernels kKernels{keep_inside,  count_inside, meet_rows,   keep_near,   copy_inside,
-                                         sum_moments,  solve_planes, score_plane, count_bent,  find_links,
-                                         any_above,    sum_circle,   sum_profile, find_hiders, extend_bounds,
-                                         number_cells, tag_band,     keep_depths, select_band};
+  static constexpr PointKernels kKernels{
+      test_workspace, copy_chosen,  keep_inside,   count_inside, meet_rows,  keep_near,   copy_inside,
+      sum_moments,    solve_planes, score_plane,   count_bent,   find_links, any_above,   sum_circle,
+      sum_profile,    find_hiders,  extend_bounds, number_cells, tag_band,   keep_depths, select_band};
   return kKernels;
 }
 

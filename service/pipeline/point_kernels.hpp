@@ -120,6 +120,20 @@ struct LinkPlace {
   std::uint32_t point, root, first, last;
 };
 
+/// Ranges and a box that points must lie in; bounds belong to them.
+struct WorkspaceTest {
+  BoxTest box;
+  float origin[3];                    ///< that distances are from [m]
+  float least_squared, most_squared;  ///< of the distance [m2]
+};
+
+/// Where chosen points go.
+struct ChosenPoints {
+  float *x, *y, *z;
+  std::uint32_t* position;  ///< may be null
+  std::size_t room;         ///< in each; nothing beyond it is written
+};
+
 /// Points with normals, and what makes one of them a plane's.
 struct PlaneSample {
   const float *x, *y, *z;
@@ -175,6 +189,13 @@ struct ProfileSums {
 };
 
 struct PointKernels {
+  /// Sets bit k % 8 of masks[k / 8] for each of n points that is finite and in the workspace, and no others
+  /// up to the next byte; returns how many are finite.
+  std::size_t (*test_workspace)(const WorkspaceTest& test, const float* x, const float* y, const float* z,
+                                std::size_t n, std::uint8_t* masks);
+  /// Copies those of n points whose bits are set, in their order, and their positions counted from first.
+  void (*copy_chosen)(const float* x, const float* y, const float* z, const std::uint8_t* masks,
+                      std::size_t n, std::uint32_t first, const ChosenPoints& out);
   /// Writes the points of some spans that are inside, in their order; returns their number.
   std::size_t (*keep_inside)(const BoxTest& box, const PointRange& points, std::span<const PointSpan> spans,
                              const LocalOutput& out);

@@ -5,60 +5,46 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <bit>
+#include <cstring>
+#include <span>
+
+#include "service/pipeline/point_kernels.hpp"
 
 namespace graspd {
 namespace {
 
-struct Kept {
-  int finite = 0, inside = 0;
+WorkspaceTest workspace_test(const Eigen::Vector3f& viewpoint, const WorkspaceFilterConfig& config) {
+  WorkspaceTest test;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) test.box.to_local[i][j] = config.T_box_cloud.linear()(i, j);
+    test.box.shift[i] = config.T_box_cloud.translation()[i];
+    test.box.min[i] = config.min_m[i];
+    test.box.max[i] = config.max_m[i];
+    test.origin[i] = viewpoint[i];
+  }
+  test.least_squared = config.min_range_m * config.min_range_m;
+  test.most_squared = config.max_range_m * config.max_range_m;
+  return test;
+}
+
+constexpr std::size_t kChunk = 1 << 15;
+
+/// Points that are looked at together.
+struct Chunk {
+  std::size_t num_finite = 0, num_inside = 0;
+  std::size_t first = 0;  // of those inside, among those of all chunks
 };
 
-/// Copies the points from [begin, end) that are wanted to kept, from begin on, and the positions they had to
-/// positions where that is not null.
-Kept keep_inside(const PointCloud& cloud, const WorkspaceFilterConfig& config, std::size_t begin,
-                 std::size_t end, PointCloud& kept, std::uint32_t* positions) {
-  const float nearest = config.min_range_m * config.min_range_m;
-  const float farthest = config.max_range_m * config.max_range_m;
-  const Eigen::Matrix3f R = config.T_box_cloud.linear();
-  const Eigen::Vector3f t = config.T_box_cloud.translation(), lo = config.min_m, hi = config.max_m,
-                        origin = cloud.viewpoint;
-  constexpr std::size_t kBlock = 64;
-  int inside[kBlock];
-  Kept count;
-  std::size_t n = begin;
-  for (; begin < end; begin += kBlock) {
-    const std::size_t size = std::min(kBlock, end - begin);
-    const float *xs = cloud.x.data() + begin, *ys = cloud.y.data() + begin, *zs = cloud.z.data() + begin;
-    for (std::size_t k = 0; k < size; ++k) {
-      const float x = xs[k], y = ys[k], z = zs[k];
-      const float dx = x - origin.x(), dy = y - origin.y(), dz = z - origin.z();
-      const float range = dx * dx + dy * dy + dz * dz;
-      const float u = R(0, 0) * x + R(0, 1) * y + R(0, 2) * z + t.x(),
-                  v = R(1, 0) * x + R(1, 1) * y + R(1, 2) * z + t.y(),
-                  w = R(2, 0) * x + R(2, 1) * y + R(2, 2) * z + t.z();
-      // The difference is NaN for what is not finite.
-      const int finite = int{x - x == 0} & int{y - y == 0} & int{z - z == 0};
-      count.finite += finite;
-      inside[k] = finite & int{range >= nearest} & int{range <= farthest} & int{u >= lo.x()} &
-                  int{u <= hi.x()} & int{v >= lo.y()} & int{v <= hi.y()} & int{w >= lo.z()} &
-                  int{w <= hi.z()};
-    }
-    if (positions != nullptr) {
-      std::uint32_t* next = positions + n;
-      for (std::size_t k = 0; k < size; ++k) {
-        *next = static_cast<std::uint32_t>(begin + k);
-        next += inside[k];
-      }
-    }
-    for (std::size_t k = 0; k < size; ++k) {
-      kept.x[n] = xs[k];
-      kept.y[n] = ys[k];
-      kept.z[n] = zs[k];
-      n += static_cast<std::size_t>(inside[k]);
-      count.inside += inside[k];
-    }
+std::size_t count_bits(std::span<const std::uint8_t> bytes) {
+  std::size_t num = 0;
+  for (; bytes.size() >= sizeof(std::uint64_t); bytes = bytes.subspan(sizeof(std::uint64_t))) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes.data(), sizeof(word));
+    num += static_cast<std::size_t>(std::popcount(word));
   }
-  return count;
+  for (const std::uint8_t byte : bytes) num += static_cast<std::size_t>(std::popcount(byte));
+  return num;
 }
 
 bool is_image(const PointCloud& cloud) {
@@ -77,33 +63,43 @@ std::optional<ConfigProblem> WorkspaceFilterConfig::validate() const {
 }
 
 WorkspaceResult filter_workspace(const PointCloud& cloud, const WorkspaceFilterConfig& config) {
-  constexpr std::size_t kChunk = 1 << 15;
+  const std::size_t n = cloud.size();
+  const PointKernels& kernels = point_kernels();
+  const WorkspaceTest test = workspace_test(cloud.viewpoint, config);
+  RawVector<std::uint8_t> masks((n + 7) / 8);
+  std::pmr::vector<Chunk> chunks((n + kChunk - 1) / kChunk);
+  tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
+    const std::size_t begin = c * kChunk, size = std::min(kChunk, n - begin);
+    std::uint8_t* mask = masks.data() + begin / 8;
+    chunks[c].num_finite = kernels.test_workspace(test, cloud.x.data() + begin, cloud.y.data() + begin,
+                                                  cloud.z.data() + begin, size, mask);
+    chunks[c].num_inside = count_bits({mask, (size + 7) / 8});
+  });
   WorkspaceResult result;
+  std::size_t num_inside = 0;
+  for (Chunk& chunk : chunks) {
+    chunk.first = num_inside;
+    num_inside += chunk.num_inside;
+    result.num_finite += chunk.num_finite;
+  }
   PointCloud& kept = result.cloud;
   kept.viewpoint = cloud.viewpoint;
-  kept.resize(cloud.size());
+  kept.resize(num_inside);
+  kept.width = static_cast<int>(num_inside);
   auto& positions = result.pixels.of_point;
   if (is_image(cloud)) {
     result.pixels.width = cloud.width;
     result.pixels.height = cloud.height;
-    positions.resize(cloud.size());
+    positions.resize(num_inside);
   }
-  std::pmr::vector<Kept> counts((cloud.size() + kChunk - 1) / kChunk);
-  tbb::parallel_for(std::size_t{0}, counts.size(), [&](std::size_t c) {
-    counts[c] = keep_inside(cloud, config, c * kChunk, std::min((c + 1) * kChunk, cloud.size()), kept,
-                            positions.empty() ? nullptr : positions.data());
+  tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
+    const std::size_t begin = c * kChunk, first = chunks[c].first;
+    kernels.copy_chosen(cloud.x.data() + begin, cloud.y.data() + begin, cloud.z.data() + begin,
+                        masks.data() + begin / 8, std::min(kChunk, n - begin),
+                        static_cast<std::uint32_t>(begin),
+                        {kept.x.data() + first, kept.y.data() + first, kept.z.data() + first,
+                         positions.empty() ? nullptr : positions.data() + first, chunks[c].num_inside});
   });
-  std::size_t n = 0;
-  for (std::size_t c = 0; c < counts.size(); ++c) {
-    const auto inside = static_cast<std::size_t>(counts[c].inside);
-    for (float* v : {kept.x.data(), kept.y.data(), kept.z.data()}) std::copy_n(v + c * kChunk, inside, v + n);
-    if (!positions.empty()) std::copy_n(positions.data() + c * kChunk, inside, positions.data() + n);
-    n += inside;
-    result.num_finite += static_cast<std::size_t>(counts[c].finite);
-  }
-  kept.resize(n);
-  kept.width = static_cast<int>(n);
-  if (!positions.empty()) positions.resize(n);
   return result;
 }
 

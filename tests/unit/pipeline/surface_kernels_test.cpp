@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The graspd authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Both forms of the kernels that surfaces are found with against the definition, and against each other to
-// the bit.
+// Both forms of the kernels that frames are filtered and surfaces are found with against the definition, and
+// against each other to the bit.
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -38,6 +39,59 @@ struct Neighbors {
     return normals.x[a] * normals.x[b] + normals.y[a] * normals.y[b] + normals.z[a] * normals.z[b];
   }
 };
+
+WorkspaceTest workspace() {
+  return {{{{0.8f, 0.6f, 0}, {-0.6f, 0.8f, 0}, {0, 0, 1}},
+           {0.1f, 0, 0},
+           {-0.7f, -0.6f, -0.5f},
+           {0.8f, 0.7f, 0.9f}},
+          {0.1f, 0.2f, -0.3f},
+          0.04f,
+          0.9f};
+}
+
+TEST(FilterKernels, TestTheWorkspaceAndCopyWhatIsInIt) {
+  const WorkspaceTest test = workspace();
+  for (const std::size_t size : {0, 1, 7, 8, 9, 63, 64, 65, 500}) {
+    Points points(size, 9);
+    for (std::size_t i = 0; i < size; i += 5) points.y[i] = std::array{NAN, INFINITY}[i % 2];
+    std::vector<std::uint8_t> expected((size + 7) / 8);
+    std::vector<std::uint32_t> chosen;
+    for (std::size_t i = 0; i < size; ++i) {
+      const Eigen::Vector3f p(points.x[i], points.y[i], points.z[i]);
+      const float squared = (p - Eigen::Vector3f(0.1f, 0.2f, -0.3f)).squaredNorm();
+      const Eigen::Vector3f local(0.8f * p.x() + 0.6f * p.y() + 0.1f, -0.6f * p.x() + 0.8f * p.y(), p.z());
+      if (!p.allFinite() || squared < 0.04f || squared > 0.9f) continue;
+      if ((local.array() < Eigen::Array3f(-0.7f, -0.6f, -0.5f)).any()) continue;
+      if ((local.array() > Eigen::Array3f(0.8f, 0.7f, 0.9f)).any()) continue;
+      expected[i / 8] = static_cast<std::uint8_t>(expected[i / 8] | (1 << (i % 8)));
+      chosen.push_back(static_cast<std::uint32_t>(i));
+    }
+    for (const Form& form : forms()) {
+      std::vector<std::uint8_t> masks(expected.size() + 1, 0xa5);
+      const std::size_t num_finite = form.kernels->test_workspace(test, points.x.data(), points.y.data(),
+                                                                  points.z.data(), size, masks.data());
+      EXPECT_EQ(num_finite, size - (size + 4) / 5) << form.name;
+      EXPECT_EQ(masks.back(), 0xa5);
+      masks.pop_back();
+      EXPECT_EQ(masks, expected) << form.name << " " << size;
+      const std::size_t n = chosen.size();
+      std::vector<float> x(n + 1, 7), y(n + 1, 7), z(n + 1, 7);
+      std::vector<std::uint32_t> position(n + 1, kUntouched);
+      for (std::uint32_t* positions : {position.data(), static_cast<std::uint32_t*>(nullptr)})
+        form.kernels->copy_chosen(points.x.data(), points.y.data(), points.z.data(), masks.data(), size, 40,
+                                  {x.data(), y.data(), z.data(), positions, n});
+      for (std::size_t k = 0; k < n; ++k) {
+        EXPECT_EQ(x[k], points.x[chosen[k]]);
+        EXPECT_EQ(y[k], points.y[chosen[k]]);
+        EXPECT_EQ(z[k], points.z[chosen[k]]);
+        EXPECT_EQ(position[k], chosen[k] + 40) << form.name;
+      }
+      EXPECT_EQ(position.back(), kUntouched) << "writes beyond the room";
+      EXPECT_EQ(x.back() + y.back() + z.back(), 21) << "writes beyond the room";
+    }
+  }
+}
 
 TEST(SurfaceKernels, CopyWhatIsInTheBoxOfTheAxes) {
   const float min[3] = {-0.5f, -0.25f, -1}, max[3] = {0.5f, 0.75f, 0.5f};

@@ -180,7 +180,7 @@ TEST(PointCloudDecoder, HoldsTheLimits) {
   DecodeLimits limits;
   limits.max_points = 99;
   PointCloud points;
-  points.resize(100);
+  for (auto* axis : {&points.x, &points.y, &points.z}) axis->assign(100, 0.5f);
   points.width = 100;
   const Bytes message = encode(make_point_cloud({1, 2, "f"}, points));
   expect_refusal(message, RefusalReason::kTooLarge, "width * height: too many points (got 100 * 1", limits);
