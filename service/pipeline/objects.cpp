@@ -199,7 +199,7 @@ Objects group_segments(const PointCloud& cloud, const Normals& normals, const Ne
                        const ObjectsConfig& config) {
   Borders borders = find_borders(cloud, normals, neighborhoods, segments.of_point);
   std::erase_if(borders, [&](const auto& entry) {
-    const auto [a, b] = entry.first;
+    const auto a = entry.first.first, b = entry.first.second;
     return is_step(segments.list[static_cast<std::size_t>(a)], segments.list[static_cast<std::size_t>(b)],
                    entry.second);
   });

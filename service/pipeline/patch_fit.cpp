@@ -122,15 +122,24 @@ bool is_shared(const HandleCheckConfig& config, const CheckBuffers& buffers, std
   return static_cast<float>(own) < config.min_own_share * static_cast<float>(all);
 }
 
-/// The patch around position f0: between the nearest gaps on both sides, at depths down to depth_m below top.
+/// For a patch at depths down to depth_m below its top.
+struct PatchSearch {
+  const BandTags& tags;
+  const Gripper& g;
+  const HandleCheckConfig& config;
+  float depth_m;
+};
+
+/// The patch around position f0: between the nearest gaps on both sides, at the depths searched.
 /// Where others are so near that it is shared with them (kNoGap), between the nearest gaps of the object.
-Failure find_patch(const BandTags& tags, const Gripper& g, const HandleCheckConfig& config, float depth_m,
-                   CheckBuffers& buffers, float f0, PatchFit& fit) {
+Failure find_patch(const PatchSearch& search, CheckBuffers& buffers, float f0, PatchFit& fit) {
+  const BandTags& tags = search.tags;
+  const Gripper& g = search.g;
   constexpr float kAnywhere = std::numeric_limits<float>::infinity();
   constexpr int kStray = 3;  // bins
-  const std::size_t n =
-      point_kernels().select_band({0, fit.top_m, 0, kAnywhere, g.grasp_depth_m - g.finger_length_m, depth_m},
-                                  buffers.local.band(), buffers.selected.data());
+  const std::size_t n = point_kernels().select_band(
+      {0, fit.top_m, 0, kAnywhere, g.grasp_depth_m - g.finger_length_m, search.depth_m}, buffers.local.band(),
+      buffers.selected.data());
   const Profile profile(tags, n, buffers);
   const int start = nearest(profile.own, cell_index((f0 - tags.first) / kBin, 1),
                             static_cast<int>(0.5f * g.aperture_m / kBin));
@@ -150,7 +159,7 @@ Failure find_patch(const BandTags& tags, const Gripper& g, const HandleCheckConf
   if (profile.others.count(patch.low, patch.high) <= kStray)
     return is_wide ? Failure::kTooWide : Failure::kNone;
   const float half = 0.5f * fit.width_m;
-  if (!is_wide && !is_shared(config, buffers, n, fit.center_m - half, fit.center_m + half))
+  if (!is_wide && !is_shared(search.config, buffers, n, fit.center_m - half, fit.center_m + half))
     return Failure::kNone;
   take(between_gaps(profile.own, start, min_gap));
   return Failure::kNoGap;
@@ -159,8 +168,7 @@ Failure find_patch(const BandTags& tags, const Gripper& g, const HandleCheckConf
 /// The top of the whole patch may be higher than where the search began; then the depths below it are others,
 /// and the patch too. gather(z): the points around depth z.
 template <class Gather>
-Failure settle_top(const BandTags& tags, const Gripper& g, const HandleCheckConfig& config, float depth_m,
-                   CheckBuffers& buffers, const Gather& gather, PatchFit& fit) {
+Failure settle_top(const PatchSearch& search, CheckBuffers& buffers, const Gather& gather, PatchFit& fit) {
   constexpr int kMostRounds = 4;
   float gathered_m = 0;
   for (int round = 0; round < kMostRounds; ++round) {
@@ -171,8 +179,7 @@ Failure settle_top(const BandTags& tags, const Gripper& g, const HandleCheckConf
     const float low = fit.center_m - 0.5f * fit.width_m, high = low + fit.width_m;
     if (!find_top(buffers, low, high, fit.top_m)) return Failure::kTooFewPoints;
     if (!is_far_up && std::abs(fit.top_m - before) < kBin) break;
-    if (const Failure failure = find_patch(tags, g, config, depth_m, buffers, fit.center_m, fit);
-        failure != Failure::kNone)
+    if (const Failure failure = find_patch(search, buffers, fit.center_m, fit); failure != Failure::kNone)
       return failure;
   }
   return Failure::kNone;
@@ -226,8 +233,9 @@ Failure fit_patch(const SceneView& scene, const Gripper& gripper, const HandleCh
   gather(0);
   if (!find_top(buffers, -kTopWindow, kTopWindow, fit.top_m)) return Failure::kTooFewPoints;
   const auto fit_to = [&](float depth_m) {
-    const Failure failure = find_patch(tags, g, config, depth_m, buffers, 0, fit);
-    return failure != Failure::kNone ? failure : settle_top(tags, g, config, depth_m, buffers, gather, fit);
+    const PatchSearch search{tags, g, config, depth_m};
+    const Failure failure = find_patch(search, buffers, 0, fit);
+    return failure != Failure::kNone ? failure : settle_top(search, buffers, gather, fit);
   };
   // What the fingertips may be less deep by.
   float room = g.grasp_depth_m - config.min_grip_depth_m;
