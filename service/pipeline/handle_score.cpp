@@ -33,11 +33,11 @@ float doubt(float margin, float weight) {
 }  // namespace
 
 float score(const HandleMargins& m) {
-  constexpr float kBestLogOdds = 4.0f;
+  constexpr float kBestLogOdds = 4.2f;
   const float doubts = doubt(m.contact[0]) + doubt(m.contact[1]) + doubt(m.square, 3.0f) +
                        doubt(m.area, 2.6f) + doubt(m.walls, 2.7f) + doubt(m.seen, 1.0f) +
                        doubt(m.thickness, 1.4f) + doubt(m.silhouettes, 1.6f) + doubt(m.grip_depth, 0.25f) +
-                       doubt(m.central, 0.6f) + doubt(m.width, 0.5f) + doubt(m.steady, 2.1f);
+                       doubt(m.central, 0.6f) + doubt(m.width, 0.5f) + doubt(m.steady, 3.0f);
   return 1 / (1 + std::exp(doubts - kBestLogOdds));
 }
 
