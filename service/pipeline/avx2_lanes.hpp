@@ -79,7 +79,7 @@ GRASPD_AVX2 inline __m256i floor_to_int(__m256 v) {
 std::size_t test_workspace(const WorkspaceTest& test, const float* x, const float* y, const float* z,
                            std::size_t n, std::uint8_t* masks);
 void copy_chosen(const float* x, const float* y, const float* z, const std::uint8_t* masks, std::size_t n,
-                 std::uint32_t first, const ChosenPoints& out);
+                 const ChosenPoints& out);
 
 // What surfaces are found with.
 std::size_t keep_near(const float (&p)[3], float distance_squared, const PointRange& points,

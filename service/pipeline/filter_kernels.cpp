@@ -60,14 +60,14 @@ std::size_t test_workspace(const WorkspaceTest& test, const float* x, const floa
 }
 
 void copy_chosen(const float* x, const float* y, const float* z, const std::uint8_t* masks, std::size_t n,
-                 std::uint32_t first, const ChosenPoints& out) {
+                 const ChosenPoints& out) {
   std::size_t to = 0;
   for (std::size_t k = 0; k < n; ++k) {
     if (((masks[k / 8] >> (k % 8)) & 1) == 0) continue;
     out.x[to] = x[k];
     out.y[to] = y[k];
     out.z[to] = z[k];
-    if (out.position != nullptr) out.position[to] = first + static_cast<std::uint32_t>(k);
+    if (out.position != nullptr) out.position[to] = out.first + static_cast<std::uint32_t>(k);
     ++to;
   }
 }
@@ -138,7 +138,7 @@ GRASPD_AVX2 std::size_t test_workspace(const WorkspaceTest& test, const float* x
 }
 
 GRASPD_AVX2 void copy_chosen(const float* x, const float* y, const float* z, const std::uint8_t* masks,
-                             std::size_t n, std::uint32_t first, const ChosenPoints& out) {
+                             std::size_t n, const ChosenPoints& out) {
   const __m256i iota = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
   std::size_t to = 0, k = 0;
   for (; k + 8 <= n && to + 8 <= out.room; k += 8) {
@@ -148,14 +148,15 @@ GRASPD_AVX2 void copy_chosen(const float* x, const float* y, const float* z, con
     store(out.z + to, _mm256_loadu_ps(z + k), lanes);
     if (out.position != nullptr) {
       const __m256i positions = _mm256_add_epi32(_mm256_permutevar8x32_epi32(iota, lanes),
-                                                 _mm256_set1_epi32(static_cast<int>(first + k)));
+                                                 _mm256_set1_epi32(static_cast<int>(out.first + k)));
       _mm256_storeu_si256(reinterpret_cast<__m256i*>(out.position + to), positions);
     }
     to += static_cast<std::size_t>(std::popcount(unsigned{masks[k / 8]}));
   }
-  portable::copy_chosen(x + k, y + k, z + k, masks + k / 8, n - k, first + static_cast<std::uint32_t>(k),
-                        {out.x + to, out.y + to, out.z + to,
-                         out.position != nullptr ? out.position + to : nullptr, out.room - to});
+  portable::copy_chosen(
+      x + k, y + k, z + k, masks + k / 8, n - k,
+      {out.x + to, out.y + to, out.z + to, out.position != nullptr ? out.position + to : nullptr,
+       out.room - to, out.first + static_cast<std::uint32_t>(k)});
 }
 
 }  // namespace avx2

@@ -90,13 +90,9 @@ void set_ranks(std::pmr::vector<Promising>& all) {
   for (const std::size_t i : order) all[i].rank = seen[all[i].candidate.object]++;
 }
 
-/// The candidates that pass in the sparse copy; counts those that fail.
-std::pmr::vector<Promising> prefilter(const SceneView& sparse, const Gripper& gripper,
-                                      const HandleCheckConfig& config,
-                                      const std::pmr::vector<Candidate>& candidates,
-                                      const ObjectOutlines& outlines, CheckBuffersOfThreads& buffers,
-                                      SearchResult& out) {
-  const Results coarse = check_all(sparse, gripper, config, candidates, &outlines, buffers);
+/// The candidates that passed the first look; counts those that failed.
+std::pmr::vector<Promising> promising_ones(const std::pmr::vector<Candidate>& candidates,
+                                           const Results& coarse, SearchResult& out) {
   std::pmr::vector<Promising> passed;
   passed.reserve(candidates.size());
   for (std::size_t i = 0; i < candidates.size(); ++i)
@@ -172,8 +168,9 @@ void GuessSearch::run(const std::pmr::vector<std::uint8_t>& wanted, CheckBuffers
     std::pmr::vector<std::uint8_t> open = all;
     for (std::size_t k = 0; k < open.size(); ++k)
       if (num_handles[k] > 0) open[k] = 0;
-    const std::pmr::vector<Promising> promising =
-        prefilter(sparse_, gripper_, coarse_check_, search.candidates(round, open), outlines_, buffers, out);
+    const std::pmr::vector<Candidate> candidates = search.candidates(round, open);
+    const std::pmr::vector<Promising> promising = promising_ones(
+        candidates, check_all(sparse_, gripper_, coarse_check_, candidates, &outlines_, buffers), out);
     for (std::size_t rank = 0; rank < kMostOfAnObject; rank += kAtOnce) {
       std::pmr::vector<Candidate> next;
       for (const Promising& p : promising)

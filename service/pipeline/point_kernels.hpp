@@ -132,6 +132,7 @@ struct ChosenPoints {
   float *x, *y, *z;
   std::uint32_t* position;  ///< may be null
   std::size_t room;         ///< in each; nothing beyond it is written
+  std::uint32_t first;      ///< position of the first point that is asked for
 };
 
 /// Points with normals, and what makes one of them a plane's.
@@ -193,9 +194,9 @@ struct PointKernels {
   /// up to the next byte; returns how many are finite.
   std::size_t (*test_workspace)(const WorkspaceTest& test, const float* x, const float* y, const float* z,
                                 std::size_t n, std::uint8_t* masks);
-  /// Copies those of n points whose bits are set, in their order, and their positions counted from first.
+  /// Copies those of n points whose bits are set, in their order, and their positions.
   void (*copy_chosen)(const float* x, const float* y, const float* z, const std::uint8_t* masks,
-                      std::size_t n, std::uint32_t first, const ChosenPoints& out);
+                      std::size_t n, const ChosenPoints& out);
   /// Writes the points of some spans that are inside, in their order; returns their number.
   std::size_t (*keep_inside)(const BoxTest& box, const PointRange& points, std::span<const PointSpan> spans,
                              const LocalOutput& out);

@@ -10,7 +10,7 @@ namespace graspd::portable {
 std::size_t test_workspace(const WorkspaceTest& test, const float* x, const float* y, const float* z,
                            std::size_t n, std::uint8_t* masks);
 void copy_chosen(const float* x, const float* y, const float* z, const std::uint8_t* masks, std::size_t n,
-                 std::uint32_t first, const ChosenPoints& out);
+                 const ChosenPoints& out);
 std::size_t copy_inside(const float (&min)[3], const float (&max)[3], const PointRange& points,
                         std::span<const PointSpan> spans, const LocalOutput& out);
 int score_plane(const PlaneTest& test, const PlaneSample& sample);

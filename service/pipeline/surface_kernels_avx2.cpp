@@ -72,15 +72,15 @@ GRASPD_AVX2 inline __m256 smallest_eigenvalues(const Matrices& c, __m256 minors)
 struct Vectors {
   __m256 x, y, z;
 
-  GRASPD_AVX2 [[nodiscard]] __m256 squared() const {
+  [[nodiscard]] GRASPD_AVX2 __m256 squared() const {
     return _mm256_add_ps(_mm256_add_ps(mul(x, x), mul(y, y)), mul(z, z));
   }
-  GRASPD_AVX2 [[nodiscard]] __m256 dot(const float* u, const float* v, const float* w) const {
+  [[nodiscard]] GRASPD_AVX2 __m256 dot(const float* u, const float* v, const float* w) const {
     return _mm256_add_ps(_mm256_add_ps(mul(x, _mm256_loadu_ps(u)), mul(y, _mm256_loadu_ps(v))),
                          mul(z, _mm256_loadu_ps(w)));
   }
   /// The other ones in the lanes that are set.
-  GRASPD_AVX2 [[nodiscard]] Vectors blended(const Vectors& other, __m256 lanes) const {
+  [[nodiscard]] GRASPD_AVX2 Vectors blended(const Vectors& other, __m256 lanes) const {
     return {_mm256_blendv_ps(x, other.x, lanes), _mm256_blendv_ps(y, other.y, lanes),
             _mm256_blendv_ps(z, other.z, lanes)};
   }

@@ -96,9 +96,9 @@ WorkspaceResult filter_workspace(const PointCloud& cloud, const WorkspaceFilterC
     const std::size_t begin = c * kChunk, first = chunks[c].first;
     kernels.copy_chosen(cloud.x.data() + begin, cloud.y.data() + begin, cloud.z.data() + begin,
                         masks.data() + begin / 8, std::min(kChunk, n - begin),
-                        static_cast<std::uint32_t>(begin),
                         {kept.x.data() + first, kept.y.data() + first, kept.z.data() + first,
-                         positions.empty() ? nullptr : positions.data() + first, chunks[c].num_inside});
+                         positions.empty() ? nullptr : positions.data() + first, chunks[c].num_inside,
+                         static_cast<std::uint32_t>(begin)});
   });
   return result;
 }

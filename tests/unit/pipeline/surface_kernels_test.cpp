@@ -79,8 +79,8 @@ TEST(FilterKernels, TestTheWorkspaceAndCopyWhatIsInIt) {
       std::vector<float> x(n + 1, 7), y(n + 1, 7), z(n + 1, 7);
       std::vector<std::uint32_t> position(n + 1, kUntouched);
       for (std::uint32_t* positions : {position.data(), static_cast<std::uint32_t*>(nullptr)})
-        form.kernels->copy_chosen(points.x.data(), points.y.data(), points.z.data(), masks.data(), size, 40,
-                                  {x.data(), y.data(), z.data(), positions, n});
+        form.kernels->copy_chosen(points.x.data(), points.y.data(), points.z.data(), masks.data(), size,
+                                  {x.data(), y.data(), z.data(), positions, n, 40});
       for (std::size_t k = 0; k < n; ++k) {
         EXPECT_EQ(x[k], points.x[chosen[k]]);
         EXPECT_EQ(y[k], points.y[chosen[k]]);
