@@ -26,7 +26,7 @@ def content(value):
 class ForeignTypes(GraspdTest):
     def setUp(self):
         super().setUp()
-        frame = next(iter(sorted(self.simulate(1, "--sensor", "kinect", width=160).glob("*.pcd"))))
+        frame = next(iter(sorted(self.simulate(1, "--sensor", "kinect", width=240).glob("*.pcd"))))
         self.frame = Frame.of_pcd(frame)
         types = self.folder / "types"
         sys.path.insert(0, str(types))
