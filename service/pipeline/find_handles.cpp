@@ -111,8 +111,10 @@ FoundHandles find_handles(const PointCloud& cloud, const PointIndex& index, cons
     add_for_parts_without(surfaces, std::exchange(result.handles, {}), settler, found);
     result.handles = std::move(found);
   }
-  for (FoundHandle& first : first_handles(result.handles, surfaces, gripper, config.check, buffers))
+  for (FoundHandle& first : first_handles(result.handles, surfaces, gripper, config.check, buffers)) {
+    result.count(first.ranked.handle.segment, Failure::kNone);
     result.handles.push_back(std::move(first));
+  }
   std::pmr::vector<RankedHandle> ranked;
   ranked.reserve(result.handles.size());
   for (const FoundHandle& found : result.handles) ranked.push_back(found.ranked);

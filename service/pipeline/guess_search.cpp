@@ -61,18 +61,6 @@ FoundHandle scored(const CheckResult& result, const Guess& guess, int object, co
   return found;
 }
 
-void count(const Candidate& candidate, Failure failure, SearchResult& out) {
-  ++out.num_tried;
-  SegmentReport& report = out.segments[static_cast<std::size_t>(candidate.segment)];
-  ++report.num_candidates;
-  if (failure == Failure::kNone) {
-    ++report.num_handles;
-    return;
-  }
-  ++report.failures[static_cast<std::size_t>(failure)];
-  ++out.failures[static_cast<std::size_t>(failure)];
-}
-
 /// A candidate that passed the first look.
 struct Promising {
   Candidate candidate;
@@ -99,7 +87,7 @@ std::pmr::vector<Promising> promising_ones(const std::pmr::vector<Candidate>& ca
     if (coarse[i].failure == Failure::kNone)
       passed.push_back({candidates[i], score(coarse[i].margins)});
     else
-      count(candidates[i], coarse[i].failure, out);
+      out.count(candidates[i].segment, coarse[i].failure);
   set_ranks(passed);
   return passed;
 }
@@ -121,6 +109,18 @@ float centrality(const Handle& handle, const Eigen::Vector3f& object_center) {
   constexpr float kFalloff = 0.06f;
   const float off = handle.rotation.col(0).dot(object_center - handle.position) / kFalloff;
   return std::exp(-off * off);
+}
+
+void SearchResult::count(std::int32_t segment, Failure failure) {
+  ++num_tried;
+  SegmentReport& report = segments[static_cast<std::size_t>(segment)];
+  ++report.num_candidates;
+  if (failure == Failure::kNone) {
+    ++report.num_handles;
+    return;
+  }
+  ++report.failures[static_cast<std::size_t>(failure)];
+  ++failures[static_cast<std::size_t>(failure)];
 }
 
 PointIndex::PointIndex(const PointCloud& cloud, const ImagePixels& pixels)
@@ -179,7 +179,7 @@ void GuessSearch::run(const std::pmr::vector<std::uint8_t>& wanted, CheckBuffers
           next.push_back(p.candidate);
       const Results fine = check_all(points_, gripper_, config_.check, next, nullptr, buffers);
       for (std::size_t k = 0; k < next.size(); ++k) {
-        count(next[k], fine[k].failure, out);
+        out.count(next[k].segment, fine[k].failure);
         if (fine[k].failure != Failure::kNone) continue;
         out.handles.push_back(scored(fine[k], guess_, next[k].object, points_));
         ++num_handles[static_cast<std::size_t>(next[k].object)];

@@ -52,6 +52,9 @@ struct SearchResult {
   std::pmr::vector<SegmentReport> segments;
   FailureCounts failures{};  ///< of all candidates tried
   int num_tried = 0;
+
+  /// Counts a candidate on a segment.
+  void count(std::int32_t segment, Failure failure);
 };
 
 /// How near the jaws of a handle are to the middle of the visible object, in [0, 1]: off the middle the
