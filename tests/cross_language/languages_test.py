@@ -106,7 +106,7 @@ class Languages(GraspdTest):
                        lambda one=listener: "probe" in one.out, f"{language}'s listener to hear")
         bus.receive(0.2)
         bus.messages.clear()
-        frames = [Frame.of_pcd(p) for p in sorted(self.simulate(3, "--sensor", "kinect", width=160).glob("*.pcd"))]
+        frames = [Frame.of_pcd(p) for p in sorted(self.simulate(3, "--sensor", "kinect").glob("*.pcd"))]
         log = self.folder / "clouds.log"
         write_messages(log, [(CLOUDS, own_message(frame)) for frame in frames], period_s=0.3)
         player = self.start(shutil.which("lcm-logplayer"), log)
@@ -146,7 +146,7 @@ class Languages(GraspdTest):
         bus = self.open_bus()
         self.start_daemon(bus, self.write_config(CONFIG))
         newcomer = self.start(PYTHON[0], "-u", script)
-        cloud = own_message(Frame.of_pcd(next(iter(self.simulate(1, width=160).glob("*.pcd")))))
+        cloud = own_message(Frame.of_pcd(next(iter(self.simulate(1, width=320).glob("*.pcd")))))
         self.probe(bus, CLOUDS, cloud, lambda: "]]" in newcomer.out or newcomer.process.poll() is not None, "a matrix")
         self.assertIsNone(newcomer.process.poll(), newcomer.err)
         bus.receive(0.2)
