@@ -90,9 +90,11 @@ int score_plane(const PlaneTest& test, const PlaneSample& sample);
 void solve_planes(const MomentLanes& moments, NormalLanes& normals);
 std::size_t count_bent(const NormalArrays& normals, std::uint32_t s, float limit,
                        const std::uint32_t* indices, std::size_t n);
-std::size_t find_links(const LinkTest& test, const LinkPlace& place, const std::uint32_t* indices,
-                       std::size_t n, std::uint32_t* out);
-bool any_above(const std::int32_t* values, std::int32_t limit, const std::uint32_t* indices, std::size_t n);
+FoundLinks find_links(const LinkTest& test, const LinkPlace& place, const std::uint32_t* indices,
+                      std::size_t n, std::uint32_t* out);
+bool any_other(const std::int32_t* values, std::int32_t value, const std::uint32_t* indices, std::size_t n);
+std::size_t list_members(const std::int32_t* values, std::size_t n, std::uint32_t* out);
+std::size_t list_unmarked(const std::uint8_t* marks, std::size_t n, std::uint32_t* out);
 
 // What a check does with the points that it gathered.
 CircleSums sum_circle(const CircleWeights& weights, const float* xs, const float* ys, std::size_t n);

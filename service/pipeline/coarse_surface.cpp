@@ -10,7 +10,7 @@ CoarseSurface::CoarseSurface(const PointCloud& cloud, float leaf_size_m)
     : cloud_(downsample(cloud, {leaf_size_m}).cloud),
       search_(cloud_, {2 * leaf_size_m}),
       has_normal_(cloud_.size()),
-      normals_(cloud_.size()) {}
+      normals_(cloud_.size(), Eigen::Vector3f::Zero()) {}
 
 bool CoarseSurface::has(const std::pmr::vector<std::uint8_t>& wanted) const {
   int missing = 0;

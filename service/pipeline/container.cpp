@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "service/pipeline/cell_order.hpp"
+#include "service/pipeline/members.hpp"
+
 namespace graspd {
 namespace {
 
@@ -18,14 +21,6 @@ struct Wall {
   Plane face;   // its normal horizontal
   float top_m;  // height above the support
 };
-
-/// Points above the support.
-std::pmr::vector<std::uint32_t> standing_points(const PointCloud& cloud, const Support& support) {
-  std::pmr::vector<std::uint32_t> points;
-  for (std::uint32_t i = 0; i < cloud.size(); ++i)
-    if (!support.is_support[i]) points.push_back(i);
-  return points;
-}
 
 float flatness(const PointCloud& cloud, const Segment& segment) {
   float squares = 0;
@@ -43,30 +38,46 @@ float trimmed_length(std::pmr::vector<float>& values) {
   return values.empty() ? 0.0f : values[values.size() - 1 - skip] - values[skip];
 }
 
+/// Whether more than so many points lie well before the face, and as many well behind it.
+bool stands_among(const PointRange& points, const Plane& face, std::size_t most) {
+  constexpr std::size_t kBlock = 512;
+  const float nx = face.normal.x(), ny = face.normal.y(), nz = face.normal.z(), offset = face.offset_m;
+  std::size_t front = 0, behind = 0;
+  for (std::size_t from = 0; from < points.size && std::min(front, behind) <= most; from += kBlock) {
+    const std::size_t size = std::min(kBlock, points.size - from);
+    const float *x = points.x + from, *y = points.y + from, *z = points.z + from;
+    int before = 0, beyond = 0;
+    for (std::size_t k = 0; k < size; ++k) {
+      const float d = nx * x[k] + (ny * y[k] + nz * z[k]) + offset;  // as Plane::height() has it
+      before += d > kClear ? 1 : 0;
+      beyond += d < -kClear ? 1 : 0;
+    }
+    front += static_cast<std::size_t>(before);
+    behind += static_cast<std::size_t>(beyond);
+  }
+  return std::min(front, behind) > most;
+}
+
 /// Whether the face is long and high enough, and has nearly all points on one side.
-bool is_wall(const PointCloud& cloud, const std::pmr::vector<std::uint32_t>& standing, const Support& support,
-             const ContainerConfig& config, Wall& wall) {
+bool is_wall(const PointRange& standing, const Support& support, const ContainerConfig& config, Wall& wall) {
+  const auto most = static_cast<std::size_t>(config.max_outside_share * static_cast<float>(standing.size));
+  if (stands_among(standing, wall.face, most)) return false;
   const Eigen::Vector3f along = support.plane.normal.cross(wall.face.normal);
   std::pmr::vector<float> lengths, heights;
-  std::size_t front = 0, behind = 0;
-  for (const std::uint32_t i : standing) {
-    const Eigen::Vector3f p = cloud.point(i);
-    const float d = wall.face.height(p);
-    front += d > kClear ? 1 : 0;
-    behind += d < -kClear ? 1 : 0;
-    if (std::abs(d) > config.thickness_m) continue;
+  for (std::size_t k = 0; k < standing.size; ++k) {
+    const Eigen::Vector3f p(standing.x[k], standing.y[k], standing.z[k]);
+    if (std::abs(wall.face.height(p)) > config.thickness_m) continue;
     lengths.push_back(along.dot(p));
     heights.push_back(support.plane.height(p));
   }
-  const auto most = static_cast<std::size_t>(config.max_outside_share * static_cast<float>(standing.size()));
-  if (std::min(front, behind) > most || trimmed_length(lengths) < config.min_length_m) return false;
+  if (trimmed_length(lengths) < config.min_length_m) return false;
   if (trimmed_length(heights) < 0.7f * config.min_height_m) return false;
   wall.top_m = heights[heights.size() - 1 - heights.size() / 50];
   return wall.top_m >= config.min_height_m;
 }
 
 std::pmr::vector<Wall> find_walls(const PointCloud& cloud, const Segments& segments,
-                                  const std::pmr::vector<std::uint32_t>& standing, const Support& support,
+                                  const PointRange& standing, const Support& support,
                                   const ContainerConfig& config) {
   std::pmr::vector<Wall> walls;
   for (const Segment& segment : segments.list) {
@@ -74,7 +85,7 @@ std::pmr::vector<Wall> find_walls(const PointCloud& cloud, const Segments& segme
     if (std::abs(lean) > kMaxLean || flatness(cloud, segment) > kMaxScatter) continue;
     const Eigen::Vector3f normal = (segment.normal - lean * support.plane.normal).normalized();
     Wall wall{{normal, -normal.dot(segment.centroid)}, 0};
-    if (is_wall(cloud, standing, support, config, wall)) walls.push_back(wall);
+    if (is_wall(standing, support, config, wall)) walls.push_back(wall);
   }
   return walls;
 }
@@ -92,8 +103,9 @@ bool make_container(const Wall& a, const Wall& b, float min_apart_m) {
 std::pmr::vector<std::uint8_t> find_container(const PointCloud& cloud, const Segments& segments,
                                               const Support& support, const ContainerConfig& config) {
   if (!config.enabled) return {};
-  const std::pmr::vector<std::uint32_t> standing = standing_points(cloud, support);
-  std::pmr::vector<Wall> walls = find_walls(cloud, segments, standing, support, config);
+  const RawVector<std::uint32_t> standing = unmarked(support.is_support);
+  const PaddedPoints points(cloud, standing);
+  std::pmr::vector<Wall> walls = find_walls(cloud, segments, points.all(), support, config);
   const std::pmr::vector<Wall> all = walls;
   std::erase_if(walls, [&](const Wall& wall) {
     return std::none_of(all.begin(), all.end(), [&](const Wall& other) {

@@ -24,14 +24,14 @@ std::pmr::vector<std::uint8_t> find_edge_points(const Normals& normals, const Ne
   const NormalArrays arrays = normals.arrays();
   const PointKernels& kernels = point_kernels();
   std::pmr::vector<std::uint8_t> is_edge(normals.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, normals.size(), 1024), [&](const auto& range) {
-    for (std::size_t s = range.begin(); s != range.end(); ++s) {
+  const std::span<const std::uint32_t> points = neighborhoods.points();
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), 512), [&](const auto& range) {
+    for (const std::uint32_t s : points.subspan(range.begin(), range.size())) {
       const std::span<const std::uint32_t> near = neighborhoods.of(s);
       const bool has_normal = normals.x[s] != 0 || normals.y[s] != 0 || normals.z[s] != 0;
       is_edge[s] = has_normal ? 0 : 1;
-      if (near.empty() || !has_normal) continue;
-      const std::size_t bent =
-          kernels.count_bent(arrays, static_cast<std::uint32_t>(s), cos_high, near.data(), near.size());
+      if (!has_normal) continue;
+      const std::size_t bent = kernels.count_bent(arrays, s, cos_high, near.data(), near.size());
       is_edge[s] = static_cast<float>(bent) > config.edge_share * static_cast<float>(near.size()) ? 1 : 0;
     }
   });

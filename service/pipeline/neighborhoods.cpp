@@ -8,6 +8,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "service/pipeline/members.hpp"
 
 namespace graspd {
 namespace {
@@ -63,6 +67,7 @@ class Candidates {
             const PointRange& points, std::span<const PointSpan> spans, std::size_t size) {
     points_ = points;
     spans_ = spans;
+    size_ = size;
     constexpr std::size_t kEnough = 3;  // points for which a copy pays
     if (wanted.size() < kEnough) return;
     if (const std::size_t room = size + 2 * kPointPadding; x_.size() < room) {
@@ -76,7 +81,11 @@ class Candidates {
     points_ = {x_.data(), y_.data(), z_.data(), index_.data(), n};
     whole_ = {0, n};
     spans_ = {&whole_, 1};
+    size_ = n;
   }
+
+  /// Of the spans.
+  [[nodiscard]] std::size_t size() const { return size_; }
 
   [[nodiscard]] const PointRange& points() const { return points_; }
   [[nodiscard]] std::span<const PointSpan> spans() const { return spans_; }
@@ -103,17 +112,52 @@ class Candidates {
   PointRange points_{};
   std::span<const PointSpan> spans_;
   PointSpan whole_{};
+  std::size_t size_ = 0;
   RawVector<float> x_, y_, z_;
   RawVector<std::uint32_t> index_;
+};
+
+/// Lists one after the other, in blocks that stay where they are.
+class ListStorage {
+ public:
+  using Blocks = std::pmr::vector<RawVector<std::uint32_t>>;
+
+  /// Room for a list of so many and kPointPadding more.
+  std::uint32_t* room(std::size_t most) {
+    if (static_cast<std::size_t>(end_ - next_) >= most + kPointPadding) return next_;
+    RawVector<std::uint32_t>& block = blocks_.emplace_back();
+    block.resize(std::max(kBlock, most + kPointPadding));
+    next_ = block.data();
+    end_ = next_ + block.size();
+    return next_;
+  }
+  /// Keeps a list of so many; what may be read beyond it are points until the next one is there.
+  void keep(std::size_t size) {
+    next_ += size;
+    std::fill_n(next_, kPointPadding, 0u);
+  }
+  [[nodiscard]] Blocks take() { return std::move(blocks_); }
+
+ private:
+  static constexpr std::size_t kBlock = 1 << 14;
+
+  Blocks blocks_;
+  std::uint32_t *next_ = nullptr, *end_ = nullptr;
 };
 
 /// Working memory of one thread, kept from chunk to chunk.
 struct Workspace {
   Candidates candidates;
-  std::pmr::vector<std::uint32_t> wanted, done;  // points: of the cell, and those that have a list
-  std::pmr::vector<std::size_t> ends;            // of their lists; one more at the beginning
-  RawVector<std::uint32_t> lists;                // one after the other
+  std::pmr::vector<std::uint32_t> wanted;  // points of the cell
+  ListStorage lists;
 };
+
+RawVector<std::uint32_t> points_to_find(std::size_t n, const std::pmr::vector<std::uint8_t>& skip) {
+  if (!skip.empty()) return unmarked(skip);
+  RawVector<std::uint32_t> all(n);
+  std::iota(all.begin(), all.end(), 0u);
+  return all;
+}
 
 /// Sets the points of a cell whose neighbourhoods are wanted.
 std::span<const std::uint32_t> wanted_points(std::span<const std::uint32_t> cell,
@@ -142,9 +186,10 @@ NeighborhoodSearch::NeighborhoodSearch(const PointCloud& cloud, const Neighborho
 Neighborhoods NeighborhoodSearch::find(const std::pmr::vector<std::uint8_t>& skip) const {
   Neighborhoods result;
   result.lists_.resize(cloud_.size());
+  std::fill(result.lists_.begin(), result.lists_.end(), NeighborList{});
+  result.points_ = points_to_find(cloud_.size(), skip);
   constexpr std::size_t kCellsPerChunk = 128;
   const std::size_t num_chunks = (order_.num_cells() + kCellsPerChunk - 1) / kCellsPerChunk;
-  result.storage_.resize(num_chunks);
   const float radius_squared = radius_m_ * radius_m_;
   const PointKernels& kernels = point_kernels();
   tbb::enumerable_thread_specific<Workspace, std::pmr::polymorphic_allocator<Workspace>> workspaces;
@@ -154,8 +199,6 @@ Neighborhoods NeighborhoodSearch::find(const std::pmr::vector<std::uint8_t>& ski
     const std::size_t end = std::min(begin + kCellsPerChunk, order_.num_cells());
     RowCursor cursor(order_, begin);
     Workspace& w = workspaces.local();
-    w.done.clear();
-    w.ends.assign(1, 0);
     for (std::size_t c = begin; c < end; ++c) {
       const std::span<const std::uint32_t> wanted = wanted_points(order_.cell(c), skip, w.wanted);
       if (wanted.empty()) continue;
@@ -163,24 +206,17 @@ Neighborhoods NeighborhoodSearch::find(const std::pmr::vector<std::uint8_t>& ski
       std::size_t size = 0;
       for (const PointSpan& span : spans) size += span.end - span.begin;
       w.candidates.take(cloud_, wanted, radius_m_, points_.all(), spans, size);
-      const std::size_t most = w.ends.back() + wanted.size() * size + kPointPadding;
-      if (w.lists.size() < most) w.lists.resize(2 * most);
       for (const std::uint32_t i : wanted) {
-        const std::size_t from = w.ends.back();
-        w.done.push_back(i);
-        w.ends.push_back(from + kernels.keep_near({cloud_.x[i], cloud_.y[i], cloud_.z[i]}, radius_squared,
-                                                  w.candidates.points(), w.candidates.spans(),
-                                                  w.lists.data() + from));
+        std::uint32_t* list = w.lists.room(w.candidates.size());
+        const std::size_t n = kernels.keep_near({cloud_.x[i], cloud_.y[i], cloud_.z[i]}, radius_squared,
+                                                w.candidates.points(), w.candidates.spans(), list);
+        w.lists.keep(n);
+        result.lists_[i] = {i, static_cast<std::uint32_t>(n), list};
       }
     }
-    if (w.done.empty()) return;
-    RawVector<std::uint32_t>& list = result.storage_[chunk];
-    list.resize(w.ends.back() + kPointPadding);
-    std::copy_n(w.lists.data(), w.ends.back(), list.data());
-    std::fill_n(list.data() + w.ends.back(), kPointPadding, 0u);
-    for (std::size_t k = 0; k < w.done.size(); ++k)
-      result.lists_[w.done[k]] = {list.data() + w.ends[k], list.data() + w.ends[k + 1]};
   });
+  for (Workspace& w : workspaces)
+    for (RawVector<std::uint32_t>& block : w.lists.take()) result.storage_.push_back(std::move(block));
   return result;
 }
 

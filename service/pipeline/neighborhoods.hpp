@@ -29,11 +29,17 @@ struct NeighborhoodsConfig {
 class Neighborhoods {
  public:
   [[nodiscard]] std::size_t size() const { return lists_.size(); }
-  [[nodiscard]] std::span<const std::uint32_t> of(std::size_t point) const { return lists_[point]; }
+  /// Those that are not skipped, ascending.
+  [[nodiscard]] std::span<const std::uint32_t> points() const { return points_; }
+  [[nodiscard]] std::span<const std::uint32_t> of(std::size_t point) const {
+    return {lists_[point].indices, lists_[point].size};
+  }
+  [[nodiscard]] const NeighborList& list(std::size_t point) const { return lists_[point]; }
 
  private:
   friend class NeighborhoodSearch;
-  std::pmr::vector<std::span<const std::uint32_t>> lists_;
+  RawVector<std::uint32_t> points_;
+  RawVector<NeighborList> lists_;
   std::pmr::vector<RawVector<std::uint32_t>> storage_;
 };
 

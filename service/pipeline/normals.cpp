@@ -18,37 +18,32 @@ class NormalBatch {
       : cloud_(cloud), neighborhoods_(neighborhoods), kernels_(point_kernels()), normals_(normals) {}
 
   void add(std::size_t point) {
-    const std::span<const std::uint32_t> neighborhood = neighborhoods_.of(point);
-    const Moments m =
-        kernels_.sum_moments({cloud_.x[point], cloud_.y[point], cloud_.z[point]}, cloud_.x.data(),
-                             cloud_.y.data(), cloud_.z.data(), neighborhood.data(), neighborhood.size());
-    const std::size_t k = size_++;
-    moments_.x[k] = m.x;
-    moments_.y[k] = m.y;
-    moments_.z[k] = m.z;
-    moments_.xx[k] = m.xx;
-    moments_.xy[k] = m.xy;
-    moments_.xz[k] = m.xz;
-    moments_.yy[k] = m.yy;
-    moments_.yz[k] = m.yz;
-    moments_.zz[k] = m.zz;
-    moments_.count[k] = static_cast<float>(neighborhood.size());
-    points_[k] = point;
-    if (size_ == kSolved) solve();
+    lists_[size_] = neighborhoods_.list(point);
+    towards_.x[size_] = cloud_.viewpoint.x() - cloud_.x[point];
+    towards_.y[size_] = cloud_.viewpoint.y() - cloud_.y[point];
+    towards_.z[size_] = cloud_.viewpoint.z() - cloud_.z[point];
+    if (++size_ == kSolved) solve();
   }
 
   /// Those that are left.
   void solve() {
+    if (size_ == 0) return;
+    MomentLanes moments;
     NormalLanes n;
-    kernels_.solve_planes(moments_, n);
+    kernels_.sum_moments(cloud_.x.data(), cloud_.y.data(), cloud_.z.data(), {lists_, size_}, moments);
+    kernels_.solve_planes(moments, n);
+    for (std::size_t k = 0; k < kSolved; ++k) {
+      const float cosine = n.x[k] * towards_.x[k] + n.y[k] * towards_.y[k] + n.z[k] * towards_.z[k];
+      const float sign = cosine < 0 ? -1.0f : 1.0f;
+      n.x[k] *= sign;
+      n.y[k] *= sign;
+      n.z[k] *= sign;
+    }
     for (std::size_t k = 0; k < size_; ++k) {
-      const std::size_t i = points_[k];
-      const Eigen::Vector3f to_sensor = cloud_.viewpoint - cloud_.point(i);
-      const float sign =
-          n.x[k] * to_sensor.x() + n.y[k] * to_sensor.y() + n.z[k] * to_sensor.z() < 0 ? -1.0f : 1.0f;
-      normals_.x[i] = sign * n.x[k];
-      normals_.y[i] = sign * n.y[k];
-      normals_.z[i] = sign * n.z[k];
+      const std::size_t i = lists_[k].point;
+      normals_.x[i] = n.x[k];
+      normals_.y[i] = n.y[k];
+      normals_.z[i] = n.z[k];
     }
     size_ = 0;
   }
@@ -58,24 +53,29 @@ class NormalBatch {
   const Neighborhoods& neighborhoods_;
   const PointKernels& kernels_;
   Normals& normals_;
-  MomentLanes moments_{};
-  std::size_t points_[kSolved] = {};
+  NeighborList lists_[kSolved] = {};
+  NormalLanes towards_{};  // from the points to the sensor
   std::size_t size_ = 0;
 };
 
 }  // namespace
 
-Normals estimate_normals(const PointCloud& cloud, const Neighborhoods& neighborhoods) {
-  Normals normals(cloud.size());
+Normals estimate_normals(const PointCloud& cloud, const Neighborhoods& neighborhoods,
+                         const Eigen::Vector3f& others) {
+  Normals normals(cloud.size(), others);
   estimate_normals(cloud, neighborhoods, normals);
   return normals;
 }
 
 void estimate_normals(const PointCloud& cloud, const Neighborhoods& neighborhoods, Normals& normals) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cloud.size(), 1024), [&](const auto& range) {
+  const std::span<const std::uint32_t> points = neighborhoods.points();
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), 512), [&](const auto& range) {
     NormalBatch batch(cloud, neighborhoods, normals);
-    for (std::size_t i = range.begin(); i != range.end(); ++i)
-      if (neighborhoods.of(i).size() >= 3) batch.add(i);
+    for (std::size_t k = range.begin(); k != range.end(); ++k)
+      if (neighborhoods.of(points[k]).size() >= 3)
+        batch.add(points[k]);
+      else
+        normals.x[points[k]] = normals.y[points[k]] = normals.z[points[k]] = 0;
     batch.solve();
   });
 }

@@ -11,21 +11,22 @@
 
 namespace graspd {
 
-/// Unit vectors as a structure of arrays; zero where a neighbourhood has fewer than three points, is skipped,
-/// or has no plane.
+/// Unit vectors as a structure of arrays; zero where a neighbourhood has fewer than three points or no plane.
 struct Normals {
   std::pmr::vector<float> x, y, z;
 
   Normals() = default;
-  explicit Normals(std::size_t n) : x(n), y(n), z(n) {}
+  Normals(std::size_t n, const Eigen::Vector3f& all) : x(n, all.x()), y(n, all.y()), z(n, all.z()) {}
 
   [[nodiscard]] std::size_t size() const { return x.size(); }
   [[nodiscard]] NormalArrays arrays() const { return {x.data(), y.data(), z.data()}; }
   [[nodiscard]] Eigen::Vector3f at(std::size_t i) const { return {x[i], y[i], z[i]}; }
 };
 
-[[nodiscard]] Normals estimate_normals(const PointCloud& cloud, const Neighborhoods& neighborhoods);
-/// Those of points with a neighbourhood; the others stay what they are.
+/// others: what skipped points have for a normal.
+[[nodiscard]] Normals estimate_normals(const PointCloud& cloud, const Neighborhoods& neighborhoods,
+                                       const Eigen::Vector3f& others = Eigen::Vector3f::Zero());
+/// The normals of points that are not skipped; the others stay what they are.
 void estimate_normals(const PointCloud& cloud, const Neighborhoods& neighborhoods, Normals& normals);
 
 }  // namespace graspd

@@ -10,6 +10,7 @@
 #include <numeric>
 #include <utility>
 
+#include "service/pipeline/members.hpp"
 #include "service/pipeline/point_kernels.hpp"
 #include "service/pipeline/union_find.hpp"
 
@@ -25,20 +26,38 @@ using Borders = std::pmr::map<std::pair<std::int32_t, std::int32_t>, Border>;
 
 using Groups = std::pmr::vector<std::int32_t>;
 
-constexpr std::size_t kChunk = 4096;  // points that are looked at together
+constexpr std::size_t kChunk = 1024;  // points that are looked at together
 
-/// The borders that points [begin, end) have with groups of larger numbers.
-Borders borders_of(const PointCloud& cloud, const Normals& normals, const Neighborhoods& neighborhoods,
-                   const Groups& group_of_point, std::size_t begin, std::size_t end) {
+/// The points at which groups may meet: those with neighbours of another group or of none, and all that have
+/// none.
+RawVector<std::uint32_t> points_at_borders(const Neighborhoods& neighborhoods, const Groups& group_of_point) {
   const PointKernels& kernels = point_kernels();
+  const std::span<const std::uint32_t> points = neighborhoods.points();
+  RawVector<std::uint8_t> is_inside(points.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), kChunk), [&](const auto& range) {
+    for (std::size_t k = range.begin(); k != range.end(); ++k) {
+      const std::span<const std::uint32_t> near = neighborhoods.of(points[k]);
+      const std::int32_t own = group_of_point[points[k]];
+      is_inside[k] =
+          own >= 0 && !kernels.any_other(group_of_point.data(), own, near.data(), near.size()) ? 1 : 0;
+    }
+  });
+  RawVector<std::uint32_t> found(points.size() + kPointPadding);
+  found.resize(kernels.list_unmarked(is_inside.data(), is_inside.size(), found.data()));
+  for (std::uint32_t& k : found) k = points[k];
+  return found;
+}
+
+/// The borders that the points have with groups of larger numbers.
+Borders borders_of(const PointCloud& cloud, const Normals& normals, const Neighborhoods& neighborhoods,
+                   std::span<const std::uint32_t> points, const Groups& group_of_point) {
   Borders borders;
-  for (std::size_t i = begin; i < end; ++i) {
+  for (const std::uint32_t i : points) {
     const std::int32_t a = group_of_point[i];
-    const std::span<const std::uint32_t> near = neighborhoods.of(i);
-    if (a < 0 || !kernels.any_above(group_of_point.data(), a, near.data(), near.size())) continue;
+    if (a < 0) continue;
     std::int32_t last = a;
     Border* border = nullptr;  // with the last
-    for (const std::uint32_t j : near) {
+    for (const std::uint32_t j : neighborhoods.of(i)) {
       const std::int32_t b = group_of_point[j];
       if (b <= a) continue;
       if (b != last) border = &borders[{a, b}];
@@ -52,12 +71,13 @@ Borders borders_of(const PointCloud& cloud, const Normals& normals, const Neighb
   return borders;
 }
 
+/// points: all at which groups meet.
 Borders find_borders(const PointCloud& cloud, const Normals& normals, const Neighborhoods& neighborhoods,
-                     const Groups& group_of_point) {
-  std::pmr::vector<Borders> parts((cloud.size() + kChunk - 1) / kChunk);
+                     std::span<const std::uint32_t> points, const Groups& group_of_point) {
+  std::pmr::vector<Borders> parts((points.size() + kChunk - 1) / kChunk);
   tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t c) {
-    const std::size_t begin = c * kChunk, end = std::min(begin + kChunk, cloud.size());
-    parts[c] = borders_of(cloud, normals, neighborhoods, group_of_point, begin, end);
+    const std::size_t begin = c * kChunk, size = std::min(kChunk, points.size() - begin);
+    parts[c] = borders_of(cloud, normals, neighborhoods, points.subspan(begin, size), group_of_point);
   });
   Borders borders;
   for (const Borders& part : parts)
@@ -119,29 +139,26 @@ std::int32_t most_frequent(std::span<const std::uint32_t> near, const Groups& of
   return best.first;
 }
 
-/// Gives each point that has none the object of most of its neighbours.
-Groups filled(const Neighborhoods& neighborhoods, const std::pmr::vector<std::uint8_t>& is_support,
-              const Groups& of_point) {
+/// Gives each of the points, which have none, the object of most of its neighbours.
+void fill(const Neighborhoods& neighborhoods, std::span<const std::uint32_t> points, Groups& of_point) {
   const PointKernels& kernels = point_kernels();
-  Groups result = of_point;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, of_point.size(), kChunk), [&](const auto& range) {
+  Groups found(points.size(), -1);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), kChunk), [&](const auto& range) {
     std::pmr::vector<std::pair<std::int32_t, int>> votes;
-    for (std::size_t i = range.begin(); i != range.end(); ++i) {
-      if (of_point[i] >= 0 || neighborhoods.of(i).empty() || (!is_support.empty() && is_support[i])) continue;
-      const std::span<const std::uint32_t> near = neighborhoods.of(i);
-      if (kernels.any_above(of_point.data(), -1, near.data(), near.size()))
-        result[i] = most_frequent(near, of_point, votes);
+    for (std::size_t k = range.begin(); k != range.end(); ++k) {
+      const std::span<const std::uint32_t> near = neighborhoods.of(points[k]);
+      if (kernels.any_other(of_point.data(), -1, near.data(), near.size()))
+        found[k] = most_frequent(near, of_point, votes);
     }
   });
-  return result;
+  for (std::size_t k = 0; k < points.size(); ++k) of_point[points[k]] = found[k];
 }
 
 std::pmr::vector<Eigen::Vector3f> centers(const PointCloud& cloud, const Objects& objects) {
   std::pmr::vector<Eigen::Vector3d> sum(static_cast<std::size_t>(objects.num_objects),
                                         Eigen::Vector3d::Zero());
   std::pmr::vector<double> count(sum.size());
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    if (objects.of_point[i] < 0) continue;
+  for (const std::uint32_t i : members(objects.of_point)) {
     const auto object = static_cast<std::size_t>(objects.of_point[i]);
     sum[object] += cloud.point(i).cast<double>();
     ++count[object];
@@ -151,32 +168,12 @@ std::pmr::vector<Eigen::Vector3f> centers(const PointCloud& cloud, const Objects
   return result;
 }
 
-/// The points that are an object's. Most of a frame is not, and passed over eight points at a time.
-RawVector<std::uint32_t> points_of_objects(const Objects& objects) {
-  constexpr std::size_t kBlock = 8;
-  const std::pmr::vector<std::int32_t>& object = objects.of_point;
-  RawVector<std::uint32_t> found(object.size());
-  std::size_t n = 0;
-  for (std::size_t from = 0; from < object.size(); from += kBlock) {
-    const std::size_t end = std::min(from + kBlock, object.size());
-    std::int32_t signs = -1;
-    for (std::size_t i = from; i < end; ++i) signs &= object[i];
-    if (signs < 0) continue;
-    for (std::size_t i = from; i < end; ++i) {
-      found[n] = static_cast<std::uint32_t>(i);
-      n += object[i] >= 0 ? 1 : 0;
-    }
-  }
-  found.resize(n);
-  return found;
-}
-
 }  // namespace
 
 ObjectPoints points_by_object(const Objects& objects) {
   ObjectPoints result;
   result.starts.assign(static_cast<std::size_t>(objects.num_objects) + 1, 0);
-  RawVector<std::uint32_t> found = points_of_objects(objects);
+  const RawVector<std::uint32_t> found = members(objects.of_point);
   for (const std::uint32_t i : found) ++result.starts[static_cast<std::size_t>(objects.of_point[i]) + 1];
   std::partial_sum(result.starts.begin(), result.starts.end(), result.starts.begin());
   result.points.resize(result.starts.back());
@@ -197,29 +194,32 @@ std::pmr::vector<std::uint8_t> objects_with_segments(const Objects& objects,
 Objects group_segments(const PointCloud& cloud, const Normals& normals, const Neighborhoods& neighborhoods,
                        const Segments& segments, const std::pmr::vector<std::uint8_t>& is_support,
                        const ObjectsConfig& config) {
-  Borders borders = find_borders(cloud, normals, neighborhoods, segments.of_point);
+  Objects objects;
+  objects.at_borders = points_at_borders(neighborhoods, segments.of_point);
+  Borders borders = find_borders(cloud, normals, neighborhoods, objects.at_borders, segments.of_point);
   std::erase_if(borders, [&](const auto& entry) {
     const auto a = entry.first.first, b = entry.first.second;
     return is_step(segments.list[static_cast<std::size_t>(a)], segments.list[static_cast<std::size_t>(b)],
                    entry.second);
   });
-  Objects objects;
   objects.of_segment = merge(segments.list.size(), borders, config.min_border_pairs, config.min_convex_share,
                              objects.num_objects);
   objects.of_point.assign(cloud.size(), -1);
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const std::int32_t s = segments.of_point[i];
-    if (s >= 0) objects.of_point[i] = objects.of_segment[static_cast<std::size_t>(s)];
+  for (const std::uint32_t i : members(segments.of_point))
+    objects.of_point[i] = objects.of_segment[static_cast<std::size_t>(segments.of_point[i])];
+  for (int round = 0; round < 2; ++round) {
+    std::pmr::vector<std::uint32_t> open;
+    for (const std::uint32_t i : objects.at_borders)
+      if (objects.of_point[i] < 0 && (is_support.empty() || is_support[i] == 0)) open.push_back(i);
+    fill(neighborhoods, open, objects.of_point);
   }
-  for (int round = 0; round < 2; ++round)
-    objects.of_point = filled(neighborhoods, is_support, objects.of_point);
   objects.center = centers(cloud, objects);
   return objects;
 }
 
 Objects merge_objects(const PointCloud& cloud, const Normals& normals, const Neighborhoods& neighborhoods,
                       const Objects& objects, const ObjectsConfig& config) {
-  const Borders borders = find_borders(cloud, normals, neighborhoods, objects.of_point);
+  const Borders borders = find_borders(cloud, normals, neighborhoods, objects.at_borders, objects.of_point);
   Objects wholes;
   const std::pmr::vector<std::int32_t> whole =
       merge(static_cast<std::size_t>(objects.num_objects), borders, config.min_border_pairs,

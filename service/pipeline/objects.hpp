@@ -37,6 +37,9 @@ struct Objects {
   std::pmr::vector<std::int32_t> of_segment;  ///< object of each segment
   std::pmr::vector<std::int32_t> of_point;    ///< object of each point; negative: none
   std::pmr::vector<Eigen::Vector3f> center;   ///< mean of each object's points
+  /// Points at which objects may meet, ascending: those in no segment, and those with neighbours of another
+  /// segment or of none. group_segments() alone sets it.
+  RawVector<std::uint32_t> at_borders;
 };
 
 /// Indices of the points of each object.

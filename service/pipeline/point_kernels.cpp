@@ -105,15 +105,16 @@ std::size_t keep_near(const float (&p)[3], float distance_squared, const PointRa
   return static_cast<std::size_t>(end - out);
 }
 
-Moments sum_moments(const float (&p)[3], const float* x, const float* y, const float* z,
-                    const std::uint32_t* indices, std::size_t n) {
-  constexpr std::size_t kParts = 8;
-  float part[9][kParts] = {};
-  for (std::size_t from = 0; from < n; from += kParts) {
-    const std::size_t size = std::min(kParts, n - from);
+constexpr std::size_t kParts = 8;
+
+void sum_parts(const float* x, const float* y, const float* z, const NeighborList& list,
+               float (&part)[9][kParts]) {
+  const float px = x[list.point], py = y[list.point], pz = z[list.point];
+  for (std::size_t from = 0; from < list.size; from += kParts) {
+    const std::size_t size = std::min(kParts, list.size - from);
     for (std::size_t k = 0; k < size; ++k) {
-      const std::uint32_t i = indices[from + k];
-      const float dx = x[i] - p[0], dy = y[i] - p[1], dz = z[i] - p[2];
+      const std::uint32_t i = list.indices[from + k];
+      const float dx = x[i] - px, dy = y[i] - py, dz = z[i] - pz;
       part[0][k] += dx;
       part[1][k] += dy;
       part[2][k] += dz;
@@ -125,8 +126,18 @@ Moments sum_moments(const float (&p)[3], const float* x, const float* y, const f
       part[8][k] += dz * dz;
     }
   }
-  const auto sum = [&part](int m) { return std::accumulate(part[m], part[m] + kParts, 0.0f); };
-  return {sum(0), sum(1), sum(2), sum(3), sum(4), sum(5), sum(6), sum(7), sum(8)};
+}
+
+void sum_moments(const float* x, const float* y, const float* z, std::span<const NeighborList> lists,
+                 MomentLanes& out) {
+  out = {};
+  for (std::size_t k = 0; k < lists.size(); ++k) {
+    float part[9][kParts] = {};
+    sum_parts(x, y, z, lists[k], part);
+    float* sums[9] = {out.x, out.y, out.z, out.xx, out.xy, out.xz, out.yy, out.yz, out.zz};
+    for (int m = 0; m < 9; ++m) sums[m][k] = std::accumulate(part[m], part[m] + kParts, 0.0f);
+    out.count[k] = static_cast<float>(lists[k].size);
+  }
 }
 
 void extend_bounds(const float* v, std::size_t n, float& low, float& high) {
@@ -240,9 +251,10 @@ std::size_t select_band(const BandLimits& limits, const BandPoints& points, std:
 const PointKernels& portable_kernels() {
   using namespace portable;
   static constexpr PointKernels kKernels{
-      test_workspace, copy_chosen,  keep_inside,   count_inside, meet_rows,  keep_near,   copy_inside,
-      sum_moments,    solve_planes, score_plane,   count_bent,   find_links, any_above,   sum_circle,
-      sum_profile,    find_hiders,  extend_bounds, number_cells, tag_band,   keep_depths, select_band};
+      test_workspace, copy_chosen,  keep_inside,   count_inside, meet_rows,   keep_near,
+      copy_inside,    sum_moments,  solve_planes,  score_plane,  count_bent,  find_links,
+      any_other,      list_members, list_unmarked, sum_circle,   sum_profile, find_hiders,
+      extend_bounds,  number_cells, tag_band,      keep_depths,  select_band};
   return kKernels;
 }
 

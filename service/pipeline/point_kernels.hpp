@@ -86,12 +86,16 @@ struct BandLimits {
   float min_depth, max_depth;        ///< of z - top
 };
 
-/// Sums over neighbours of their offsets from a point, and of the products of the offsets.
-struct Moments {
-  float x, y, z, xx, xy, xz, yy, yz, zz;
+/// A point and the indices of its neighbours. As many as kPointPadding more must be readable and be those of
+/// points.
+struct NeighborList {
+  std::uint32_t point;
+  std::uint32_t size;
+  const std::uint32_t* indices;
 };
 
-/// Sums of kSolved neighbourhoods of so many points, side by side.
+/// Sums over the neighbours of a point of their offsets from it and of the products of the offsets, and how
+/// many there are: of kSolved points side by side.
 inline constexpr std::size_t kSolved = 8;
 struct MomentLanes {
   float x[kSolved], y[kSolved], z[kSolved], xx[kSolved], xy[kSolved], xz[kSolved], yy[kSolved], yz[kSolved],
@@ -118,6 +122,12 @@ struct LinkTest {
 /// A point whose links are looked for: to points [first, last) outside of the set that root stands for.
 struct LinkPlace {
   std::uint32_t point, root, first, last;
+};
+
+/// Links that were found.
+struct FoundLinks {
+  std::size_t num;
+  bool any_beyond;  ///< whether points at or beyond the place's last were passed over
 };
 
 /// Ranges and a box that points must lie in; bounds belong to them.
@@ -214,27 +224,33 @@ struct PointKernels {
   /// Room as for keep_near.
   std::size_t (*copy_inside)(const float (&min)[3], const float (&max)[3], const PointRange& points,
                              std::span<const PointSpan> spans, const LocalOutput& out);
-  /// Offsets of the points with n indices from p. As many as kPointPadding more indices must be readable and
-  /// be those of points. Summed in eight parts, every eighth neighbour in one, which are added in order.
-  Moments (*sum_moments)(const float (&p)[3], const float* x, const float* y, const float* z,
-                         const std::uint32_t* indices, std::size_t n);
+  /// Of at most kSolved points; zero in the other lanes. Summed in eight parts, every eighth neighbour in
+  /// one, which are added in order.
+  void (*sum_moments)(const float* x, const float* y, const float* z, std::span<const NeighborList> lists,
+                      MomentLanes& out);
   /// Normals of the planes through neighbourhoods, from their moments; zero where there is no plane.
   void (*solve_planes)(const MomentLanes& moments, NormalLanes& normals);
   /// Points of the sample nearer to the plane than its thickness and with normals like its own, less those
   /// more than three times the thickness behind it.
   int (*score_plane)(const PlaneTest& test, const PlaneSample& sample);
   /// How many of n points, by their indices, have a normal with a cosine to that of the point s less than the
-  /// limit. Indices and points as for sum_moments.
+  /// limit. Indices as of a NeighborList.
   std::size_t (*count_bent)(const NormalArrays& normals, std::uint32_t s, float limit,
                             const std::uint32_t* indices, std::size_t n);
-  /// Writes those of n points, by their indices, that the point is linked to, in their order; returns their
-  /// number. There must be room for n + kPointPadding; indices as for sum_moments. Of parents it reads those
-  /// in [first, last) alone: others may change meanwhile.
-  std::size_t (*find_links)(const LinkTest& test, const LinkPlace& place, const std::uint32_t* indices,
-                            std::size_t n, std::uint32_t* out);
-  /// Whether one of n points, by their indices, has a value above the limit. Indices as for sum_moments.
-  bool (*any_above)(const std::int32_t* values, std::int32_t limit, const std::uint32_t* indices,
+  /// Writes those of n points, by their indices, that the point is linked to, in their order. There must be
+  /// room for n + kPointPadding; indices as of a NeighborList. Of parents it reads those in [first, last)
+  /// alone: others may change meanwhile.
+  FoundLinks (*find_links)(const LinkTest& test, const LinkPlace& place, const std::uint32_t* indices,
+                           std::size_t n, std::uint32_t* out);
+  /// Whether one of n points, by their indices, has another value than the one given. Indices as of a
+  /// NeighborList.
+  bool (*any_other)(const std::int32_t* values, std::int32_t value, const std::uint32_t* indices,
                     std::size_t n);
+  /// Writes the positions of those of n values that are not negative, ascending; returns their number. There
+  /// must be room for n + kPointPadding.
+  std::size_t (*list_members)(const std::int32_t* values, std::size_t n, std::uint32_t* out);
+  /// The same for those of n marks that are 0.
+  std::size_t (*list_unmarked)(const std::uint8_t* marks, std::size_t n, std::uint32_t* out);
   /// Summed in four parts, every fourth point in one, which are added in order. As many as kPointPadding more
   /// points must be readable.
   CircleSums (*sum_circle)(const CircleWeights& weights, const float* x, const float* y, std::size_t n);

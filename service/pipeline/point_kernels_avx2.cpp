@@ -116,31 +116,58 @@ GRASPD_AVX2 inline __m256 sums_of_lanes(const __m256* v) {
   return sum;
 }
 
-GRASPD_AVX2 Moments sum_moments(const float (&p)[3], const float* x, const float* y, const float* z,
-                                const std::uint32_t* indices, std::size_t n) {
-  const __m256 px = _mm256_set1_ps(p[0]), py = _mm256_set1_ps(p[1]), pz = _mm256_set1_ps(p[2]);
-  __m256 sum[9];
-  for (__m256& s : sum) s = _mm256_setzero_ps();
-  for (std::size_t from = 0; from < n; from += 8) {
-    const __m256i i = load(indices + from);
-    const __m256 valid = lanes_left(n - from);
-    const auto offset = [&](const float* v, __m256 origin) GRASPD_AVX2 {
-      return _mm256_and_ps(valid, _mm256_sub_ps(_mm256_i32gather_ps(v, i, sizeof(float)), origin));
-    };
-    const __m256 dx = offset(x, px), dy = offset(y, py), dz = offset(z, pz);
-    sum[0] = _mm256_add_ps(sum[0], dx);
-    sum[1] = _mm256_add_ps(sum[1], dy);
-    sum[2] = _mm256_add_ps(sum[2], dz);
-    sum[3] = _mm256_add_ps(sum[3], _mm256_mul_ps(dx, dx));
-    sum[4] = _mm256_add_ps(sum[4], _mm256_mul_ps(dx, dy));
-    sum[5] = _mm256_add_ps(sum[5], _mm256_mul_ps(dx, dz));
-    sum[6] = _mm256_add_ps(sum[6], _mm256_mul_ps(dy, dy));
-    sum[7] = _mm256_add_ps(sum[7], _mm256_mul_ps(dy, dz));
-    sum[8] = _mm256_add_ps(sum[8], _mm256_mul_ps(dz, dz));
+/// Sums of the offsets of neighbours, and of their products, in eight parts each.
+struct MomentParts {
+  __m256 x, y, z, xx, xy, xz, yy, yz, zz;
+
+  GRASPD_AVX2 void add(__m256 dx, __m256 dy, __m256 dz) {
+    x = _mm256_add_ps(x, dx);
+    y = _mm256_add_ps(y, dy);
+    z = _mm256_add_ps(z, dz);
+    xx = _mm256_add_ps(xx, _mm256_mul_ps(dx, dx));
+    xy = _mm256_add_ps(xy, _mm256_mul_ps(dx, dy));
+    xz = _mm256_add_ps(xz, _mm256_mul_ps(dx, dz));
+    yy = _mm256_add_ps(yy, _mm256_mul_ps(dy, dy));
+    yz = _mm256_add_ps(yz, _mm256_mul_ps(dy, dz));
+    zz = _mm256_add_ps(zz, _mm256_mul_ps(dz, dz));
   }
-  alignas(32) float m[8];
-  _mm256_store_ps(m, sums_of_lanes(sum));
-  return {m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], sum_in_order(sum[8])};
+};
+
+GRASPD_AVX2 inline MomentParts sum_parts(const float* x, const float* y, const float* z,
+                                         const NeighborList& list) {
+  const __m256 px = _mm256_set1_ps(x[list.point]), py = _mm256_set1_ps(y[list.point]),
+               pz = _mm256_set1_ps(z[list.point]);
+  const auto offsets = [](const float* v, __m256i i, __m256 origin) GRASPD_AVX2 {
+    return _mm256_sub_ps(_mm256_i32gather_ps(v, i, sizeof(float)), origin);
+  };
+  const __m256 zero = _mm256_setzero_ps();
+  MomentParts sum{zero, zero, zero, zero, zero, zero, zero, zero, zero};
+  std::size_t from = 0;
+  for (; from + 8 <= list.size; from += 8) {
+    const __m256i i = load(list.indices + from);
+    sum.add(offsets(x, i, px), offsets(y, i, py), offsets(z, i, pz));
+  }
+  if (from < list.size) {
+    const __m256i i = load(list.indices + from);
+    const __m256 valid = lanes_left(list.size - from);
+    sum.add(_mm256_and_ps(valid, offsets(x, i, px)), _mm256_and_ps(valid, offsets(y, i, py)),
+            _mm256_and_ps(valid, offsets(z, i, pz)));
+  }
+  return sum;
+}
+
+GRASPD_AVX2 void sum_moments(const float* x, const float* y, const float* z,
+                             std::span<const NeighborList> lists, MomentLanes& out) {
+  __m256 parts[9][kSolved];
+  for (std::size_t k = 0; k < kSolved; ++k) {
+    const bool is_there = k < lists.size();
+    const MomentParts sum = sum_parts(x, y, z, is_there ? lists[k] : NeighborList{});
+    const __m256 all[9] = {sum.x, sum.y, sum.z, sum.xx, sum.xy, sum.xz, sum.yy, sum.yz, sum.zz};
+    for (int m = 0; m < 9; ++m) parts[m][k] = all[m];
+    out.count[k] = is_there ? static_cast<float>(lists[k].size) : 0.0f;
+  }
+  float* sums[9] = {out.x, out.y, out.z, out.xx, out.xy, out.xz, out.yy, out.yz, out.zz};
+  for (int m = 0; m < 9; ++m) _mm256_storeu_ps(sums[m], sums_of_lanes(parts[m]));
 }
 
 GRASPD_AVX2 void extend_bounds(const float* v, std::size_t n, float& low, float& high) {
@@ -216,9 +243,10 @@ GRASPD_AVX2 void number_cells(const CellGrid& grid, const float* x, const float*
 
 const PointKernels* avx2_kernels() {
   static constexpr PointKernels kKernels{
-      test_workspace, copy_chosen,  keep_inside,   count_inside, meet_rows,  keep_near,   copy_inside,
-      sum_moments,    solve_planes, score_plane,   count_bent,   find_links, any_above,   sum_circle,
-      sum_profile,    find_hiders,  extend_bounds, number_cells, tag_band,   keep_depths, select_band};
+      test_workspace, copy_chosen,  keep_inside,   count_inside, meet_rows,   keep_near,
+      copy_inside,    sum_moments,  solve_planes,  score_plane,  count_bent,  find_links,
+      any_other,      list_members, list_unmarked, sum_circle,   sum_profile, find_hiders,
+      extend_bounds,  number_cells, tag_band,      keep_depths,  select_band};
   static const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("popcnt");
   return has_avx2 ? &kKernels : nullptr;
 }

@@ -20,7 +20,7 @@ struct Labels {
 };
 
 /// excluded: 1 for each point that takes no part and keeps the label -1 (the support's, which would join the
-/// objects on it); may be empty.
+/// objects on it); may be empty. Points without a neighbourhood take no part either.
 [[nodiscard]] Labels grow_regions(const Normals& normals, const Neighborhoods& neighborhoods,
                                   const std::pmr::vector<std::uint8_t>& is_edge,
                                   const std::pmr::vector<std::uint8_t>& excluded,

@@ -7,6 +7,8 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
+#include "service/pipeline/members.hpp"
+
 namespace graspd {
 namespace {
 
@@ -38,9 +40,9 @@ void set_axes(const PointCloud& cloud, Segment& segment) {
 
 Segments build_segments(const PointCloud& cloud, const Labels& labels, float leaf_size_m,
                         const SegmentsConfig& config) {
+  const RawVector<std::uint32_t> labelled = members(labels.of_point);
   std::pmr::vector<std::uint32_t> count(static_cast<std::size_t>(labels.num_labels));
-  for (const std::int32_t label : labels.of_point)
-    if (label >= 0) ++count[static_cast<std::size_t>(label)];
+  for (const std::uint32_t i : labelled) ++count[static_cast<std::size_t>(labels.of_point[i])];
   const float min_points = std::max(3.0f, config.min_area_m2 / (leaf_size_m * leaf_size_m));
 
   Segments segments;
@@ -54,8 +56,7 @@ Segments build_segments(const PointCloud& cloud, const Labels& labels, float lea
   }
   segments.of_point.assign(cloud.size(), -1);
   std::int32_t* of_point = segments.of_point.data();
-  for (std::uint32_t i = 0; i < cloud.size(); ++i) {
-    if (labels.of_point[i] < 0) continue;
+  for (const std::uint32_t i : labelled) {
     const std::int32_t s = segment_of_label[static_cast<std::size_t>(labels.of_point[i])];
     of_point[i] = s;
     if (s >= 0) *next[static_cast<std::size_t>(s)]++ = i;

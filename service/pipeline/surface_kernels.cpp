@@ -128,20 +128,39 @@ std::size_t count_bent(const NormalArrays& normals, std::uint32_t s, float limit
   return count;
 }
 
-std::size_t find_links(const LinkTest& test, const LinkPlace& place, const std::uint32_t* indices,
-                       std::size_t n, std::uint32_t* out) {
-  std::size_t num = 0;
+FoundLinks find_links(const LinkTest& test, const LinkPlace& place, const std::uint32_t* indices,
+                      std::size_t n, std::uint32_t* out) {
+  FoundLinks found{};
   for (std::size_t k = 0; k < n; ++k) {
     const std::uint32_t p = indices[k];
+    if (p >= place.last) found.any_beyond = true;
     if (p < place.first || p >= place.last || test.parent[p] == place.root) continue;
     const float least = std::max(test.least_cosine[place.point], test.least_cosine[p]);
-    if (cosine(test.normals, place.point, p) > least) out[num++] = p;
+    if (cosine(test.normals, place.point, p) > least) out[found.num++] = p;
+  }
+  return found;
+}
+
+bool any_other(const std::int32_t* values, std::int32_t value, const std::uint32_t* indices, std::size_t n) {
+  return std::any_of(indices, indices + n, [&](std::uint32_t i) { return values[i] != value; });
+}
+
+std::size_t list_members(const std::int32_t* values, std::size_t n, std::uint32_t* out) {
+  std::size_t num = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    out[num] = static_cast<std::uint32_t>(i);
+    num += values[i] >= 0 ? 1 : 0;
   }
   return num;
 }
 
-bool any_above(const std::int32_t* values, std::int32_t limit, const std::uint32_t* indices, std::size_t n) {
-  return std::any_of(indices, indices + n, [&](std::uint32_t i) { return values[i] > limit; });
+std::size_t list_unmarked(const std::uint8_t* marks, std::size_t n, std::uint32_t* out) {
+  std::size_t num = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    out[num] = static_cast<std::uint32_t>(i);
+    num += marks[i] == 0 ? 1 : 0;
+  }
+  return num;
 }
 
 }  // namespace graspd::portable

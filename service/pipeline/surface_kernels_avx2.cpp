@@ -204,18 +204,22 @@ GRASPD_AVX2 std::size_t count_bent(const NormalArrays& normals, std::uint32_t s,
   return count;
 }
 
-GRASPD_AVX2 std::size_t find_links(const LinkTest& test, const LinkPlace& place, const std::uint32_t* indices,
-                                   std::size_t n, std::uint32_t* out) {
+GRASPD_AVX2 FoundLinks find_links(const LinkTest& test, const LinkPlace& place, const std::uint32_t* indices,
+                                  std::size_t n, std::uint32_t* out) {
   const Vectors normal = normal_of(test.normals, place.point);
   const __m256 least = _mm256_set1_ps(test.least_cosine[place.point]);
   const __m256i root = _mm256_set1_epi32(static_cast<int>(place.root)),
                 before = _mm256_set1_epi32(static_cast<int>(place.first) - 1),
                 last = _mm256_set1_epi32(static_cast<int>(place.last));
+  __m256i beyond = _mm256_setzero_si256();
   std::size_t num = 0;
   for (std::size_t k = 0; k < n; k += 8) {
     const __m256i i = load(indices + k);
-    __m256i lanes = _mm256_and_si256(_mm256_cmpgt_epi32(i, before), _mm256_cmpgt_epi32(last, i));
+    __m256i lanes = _mm256_cmpgt_epi32(i, before);
     if (k + 8 > n) lanes = _mm256_and_si256(lanes, _mm256_castps_si256(lanes_left(n - k)));
+    const __m256i in_reach = _mm256_cmpgt_epi32(last, i);
+    beyond = _mm256_or_si256(beyond, _mm256_andnot_si256(in_reach, lanes));
+    lanes = _mm256_and_si256(lanes, in_reach);
     if (_mm256_testz_si256(lanes, lanes)) continue;
     const __m256i parent = _mm256_mask_i32gather_epi32(root, reinterpret_cast<const int*>(test.parent), i,
                                                        lanes, sizeof(std::uint32_t));
@@ -227,18 +231,54 @@ GRASPD_AVX2 std::size_t find_links(const LinkTest& test, const LinkPlace& place,
     store_index(out + num, indices + k, lanes_of(mask));
     num += static_cast<std::size_t>(std::popcount(mask));
   }
+  return {num, _mm256_testz_si256(beyond, beyond) == 0};
+}
+
+GRASPD_AVX2 bool any_other(const std::int32_t* values, std::int32_t value, const std::uint32_t* indices,
+                           std::size_t n) {
+  const __m256i own = _mm256_set1_epi32(value);
+  const auto same_lanes = [&](std::size_t k) GRASPD_AVX2 {
+    const __m256i v = _mm256_i32gather_epi32(values, load(indices + k), sizeof(std::int32_t));
+    return mask_of(_mm256_castsi256_ps(_mm256_cmpeq_epi32(v, own)));
+  };
+  std::size_t k = 0;
+  for (; k + 8 <= n; k += 8)
+    if (same_lanes(k) != 0xff) return true;
+  return k < n && (~same_lanes(k) & first_lanes(n - k)) != 0;
+}
+
+GRASPD_AVX2 inline std::size_t list_lanes(unsigned mask, __m256i positions, std::uint32_t* out) {
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(out),
+                      _mm256_permutevar8x32_epi32(positions, lanes_of(mask)));
+  return static_cast<std::size_t>(std::popcount(mask));
+}
+
+GRASPD_AVX2 std::size_t list_members(const std::int32_t* values, std::size_t n, std::uint32_t* out) {
+  const __m256i eight = _mm256_set1_epi32(8);
+  __m256i positions = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+  std::size_t num = 0, i = 0;
+  for (; i + 8 <= n; i += 8, positions = _mm256_add_epi32(positions, eight))
+    if (const unsigned others = mask_of(_mm256_castsi256_ps(load(values + i))); others != 0xff)
+      num += list_lanes(others ^ 0xff, positions, out + num);
+  for (; i < n; ++i)
+    if (values[i] >= 0) out[num++] = static_cast<std::uint32_t>(i);
   return num;
 }
 
-GRASPD_AVX2 bool any_above(const std::int32_t* values, std::int32_t limit, const std::uint32_t* indices,
-                           std::size_t n) {
-  const __m256i most = _mm256_set1_epi32(limit);
-  for (std::size_t k = 0; k < n; k += 8) {
-    const __m256i above =
-        _mm256_cmpgt_epi32(_mm256_i32gather_epi32(values, load(indices + k), sizeof(std::int32_t)), most);
-    if (valid_lanes(_mm256_movemask_ps(_mm256_castsi256_ps(above)), k, n) != 0) return true;
+GRASPD_AVX2 std::size_t list_unmarked(const std::uint8_t* marks, std::size_t n, std::uint32_t* out) {
+  const __m256i eight = _mm256_set1_epi32(8), zero = _mm256_setzero_si256();
+  std::size_t num = 0, i = 0;
+  for (; i + 32 <= n; i += 32) {
+    const __m256i unmarked = _mm256_cmpeq_epi8(load(marks + i), zero);
+    auto mask = static_cast<unsigned>(_mm256_movemask_epi8(unmarked));
+    __m256i positions =
+        _mm256_add_epi32(_mm256_set1_epi32(static_cast<int>(i)), _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
+    for (; mask != 0; mask >>= 8, positions = _mm256_add_epi32(positions, eight))
+      num += list_lanes(mask & 0xff, positions, out + num);
   }
-  return false;
+  for (; i < n; ++i)
+    if (marks[i] == 0) out[num++] = static_cast<std::uint32_t>(i);
+  return num;
 }
 
 }  // namespace graspd::avx2

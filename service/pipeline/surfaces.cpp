@@ -14,23 +14,18 @@ namespace {
 constexpr float kQueryCell = 0.02f;     // of the grid for box queries [m]
 constexpr float kSparseLeaves = 1.33f;  // between the voxels of first looks: with more, objects are missed
 
-/// The support's points have the plane's normal.
+/// The support's points, which have no neighbourhoods, have the plane's normal.
 Normals surface_normals(const PointCloud& cloud, const Neighborhoods& neighborhoods,
                         const std::optional<Support>& support) {
-  Normals normals = estimate_normals(cloud, neighborhoods);
-  if (!support) return normals;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    if (!support->is_support[i]) continue;
-    normals.x[i] = support->plane.normal.x();
-    normals.y[i] = support->plane.normal.y();
-    normals.z[i] = support->plane.normal.z();
-  }
-  return normals;
+  return support ? estimate_normals(cloud, neighborhoods, support->plane.normal)
+                 : estimate_normals(cloud, neighborhoods);
 }
 
 void mark_support(const Support& support, std::pmr::vector<std::int32_t>& object_of_point) {
+  const std::uint8_t* is_support = support.is_support.data();
+  std::int32_t* object = object_of_point.data();
   for (std::size_t i = 0; i < object_of_point.size(); ++i)
-    if (support.is_support[i]) object_of_point[i] = kSupportObject;
+    object[i] = is_support[i] != 0 ? kSupportObject : object[i];
 }
 
 /// Marks the walls of a container as fixed and takes them out of the labels; false where there is none.

@@ -3,10 +3,10 @@
 // Disjoint sets whose representative is the smallest member, whatever the order of the unions.
 #pragma once
 #include <cstdint>
-#include <memory_resource>
 #include <numeric>
 #include <span>
-#include <vector>
+
+#include "service/pipeline/raw_vector.hpp"
 
 namespace graspd {
 
@@ -31,16 +31,16 @@ class UnionFind {
       parent_[a] = b;
   }
 
-  /// Afterwards the parent of each member is its representative. Parents are never larger than their
-  /// children.
-  void flatten() {
-    for (std::uint32_t& parent : parent_) parent = parent_[parent];
+  /// Afterwards the parent of each of these members is its representative. They must ascend, and be all that
+  /// were ever united: parents are never larger than their children.
+  void flatten(std::span<const std::uint32_t> members) {
+    for (const std::uint32_t member : members) parent_[member] = parent_[parent_[member]];
   }
 
   [[nodiscard]] std::span<const std::uint32_t> parents() const { return parent_; }
 
  private:
-  std::pmr::vector<std::uint32_t> parent_;
+  RawVector<std::uint32_t> parent_;
 };
 
 }  // namespace graspd

@@ -70,10 +70,10 @@ void keep_near(const PointKernels& kernels, Block& b) {
 }
 
 void sum_moments(const PointKernels& kernels, Block& b) {
-  constexpr float kCenter[3] = {0.01f, 0, -0.02f};
-  const Moments sums =
-      kernels.sum_moments(kCenter, b.x.data(), b.y.data(), b.z.data(), b.index.data(), kNumPoints);
-  benchmark::DoNotOptimize(sums.zz);
+  const NeighborList list{0, kNumPoints, b.index.data()};
+  MomentLanes sums;
+  kernels.sum_moments(b.x.data(), b.y.data(), b.z.data(), {&list, 1}, sums);
+  benchmark::DoNotOptimize(sums.zz[0]);
 }
 
 void extend_bounds(const PointKernels& kernels, Block& b) {

@@ -228,17 +228,20 @@ TEST(SurfaceKernels, FindLinksWithinARangeToOtherSets) {
       const LinkTest test{in.arrays(), least.data(), parent.data()};
       const LinkPlace place{s, 7, 20, 150};
       std::vector<std::uint32_t> expected;
+      bool any_beyond = false;
       for (std::size_t k = 0; k < size; ++k) {
         const std::uint32_t p = in.indices[k];
+        any_beyond = any_beyond || p >= 150;
         if (p >= 20 && p < 150 && parent[p] != 7 && in.cosine(s, p) > std::max(least[s], least[p]))
           expected.push_back(p);
       }
       num_links += expected.size();
       for (const Form& form : forms()) {
         std::vector<std::uint32_t> found(size + kPointPadding + 1, kUntouched);
-        const std::size_t n = form.kernels->find_links(test, place, in.indices.data(), size, found.data());
+        const FoundLinks links = form.kernels->find_links(test, place, in.indices.data(), size, found.data());
         EXPECT_EQ(found.back(), kUntouched);
-        found.resize(n);
+        EXPECT_EQ(links.any_beyond, any_beyond) << form.name << " " << size;
+        found.resize(links.num);
         EXPECT_EQ(found, expected) << form.name << " " << size;
       }
     }
@@ -246,17 +249,44 @@ TEST(SurfaceKernels, FindLinksWithinARangeToOtherSets) {
   EXPECT_GT(num_links, 10u);
 }
 
-TEST(SurfaceKernels, TellWhetherAnyIsAbove) {
+TEST(SurfaceKernels, TellWhetherAnyHasAnotherValue) {
   for (const std::size_t size : {0, 1, 8, 13, 64}) {
     const Neighbors in(size);
-    std::vector<std::int32_t> values(200);
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<std::int32_t>(i) - 100;
-    std::int32_t most = -1000;
-    for (std::size_t k = 0; k < size; ++k) most = std::max(most, values[in.indices[k]]);
+    std::vector<std::int32_t> values(200, -3);
     for (const Form& form : forms()) {
-      EXPECT_FALSE(form.kernels->any_above(values.data(), most, in.indices.data(), size)) << form.name;
-      EXPECT_EQ(form.kernels->any_above(values.data(), most - 1, in.indices.data(), size), size > 0)
-          << form.name;
+      EXPECT_FALSE(form.kernels->any_other(values.data(), -3, in.indices.data(), size)) << form.name;
+      for (std::size_t k = 0; k < size; ++k) {
+        std::vector<std::int32_t> others = values;
+        others[in.indices[k]] = static_cast<std::int32_t>(k) - 1;
+        EXPECT_TRUE(form.kernels->any_other(others.data(), -3, in.indices.data(), size)) << form.name;
+      }
+      EXPECT_EQ(form.kernels->any_other(values.data(), 0, in.indices.data(), size), size > 0) << form.name;
+    }
+  }
+}
+
+TEST(SurfaceKernels, ListMembersAndWhatIsNotMarked) {
+  for (const std::size_t size : {0, 1, 7, 8, 9, 31, 32, 33, 300}) {
+    std::mt19937 random(static_cast<std::uint32_t>(size));
+    std::vector<std::int32_t> values(size);
+    std::vector<std::uint8_t> marks(size);
+    std::vector<std::uint32_t> members;
+    for (std::uint32_t i = 0; i < size; ++i) {
+      // In parts, of which some are all alike.
+      const bool is_in = i / 16 % 3 == 0 ? random() % 2 == 0 : i / 16 % 3 == 1;
+      values[i] = static_cast<std::int32_t>(random() % 4) - (is_in ? 0 : 5);
+      marks[i] = is_in ? 0 : static_cast<std::uint8_t>(1 + random() % 255);
+      if (is_in) members.push_back(i);
+    }
+    for (const Form& form : forms()) {
+      std::vector<std::uint32_t> found(size + kPointPadding + 1, kUntouched);
+      found.resize(form.kernels->list_members(values.data(), size, found.data()));
+      EXPECT_EQ(found, members) << form.name << " " << size;
+      found.assign(size + kPointPadding + 1, kUntouched);
+      const std::size_t n = form.kernels->list_unmarked(marks.data(), size, found.data());
+      EXPECT_EQ(found.back(), kUntouched);
+      found.resize(n);
+      EXPECT_EQ(found, members) << form.name << " " << size;
     }
   }
 }

@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
 #include <random>
+#include <vector>
 
 namespace graspd {
 namespace {
@@ -30,7 +32,9 @@ TEST(UnionFind, RepresentativeIsTheSmallestWhateverTheOrder) {
 TEST(UnionFind, FlattenedParentsAreRepresentatives) {
   UnionFind sets(100);
   for (std::uint32_t i = 99; i >= 10; --i) sets.unite(i, i - 10);  // ten chains of ten
-  sets.flatten();
+  std::vector<std::uint32_t> all(100);
+  std::iota(all.begin(), all.end(), 0u);
+  sets.flatten(all);
   for (std::uint32_t i = 0; i < 100; ++i) EXPECT_EQ(sets.parents()[i], i % 10);
 }
 
