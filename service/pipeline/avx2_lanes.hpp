@@ -102,8 +102,7 @@ ProfileSums sum_profile(const ProfileWeights& weights, const FacePoints& face);
 void find_hiders(const ViewImage& image, const Probes& places, float margin_m,
                  std::int32_t (&hiders)[kProbes]);
 void tag_band(const BandTags& tags, const BandPoints& points, std::int32_t* own, std::int32_t* marks);
-std::size_t keep_depths(const BandPoints& points, const std::int32_t* own, float f_min, float f_max,
-                        float* out);
+std::size_t keep_depths(const BandPoints& points, const std::int32_t* own, const BandPart& part, float* out);
 std::size_t select_band(const BandLimits& limits, const BandPoints& points, std::uint32_t* out);
 
 }  // namespace graspd::avx2

@@ -140,8 +140,9 @@ GRASPD_AVX2 void tag_band(const BandTags& tags, const BandPoints& points, std::i
                 stride = _mm256_set1_epi32(static_cast<int>(tags.stride()));
   std::size_t k = 0;
   for (; k + 8 <= points.size; k += 8) {
-    const __m256i of_point =
-        _mm256_i32gather_epi32(tags.object_of_point, load(points.index + k), sizeof(std::int32_t));
+    const __m256i voxel = _mm256_i32gather_epi32(reinterpret_cast<const int*>(tags.voxel_of_point),
+                                                 load(points.index + k), sizeof(std::uint32_t));
+    const __m256i of_point = _mm256_i32gather_epi32(tags.object_of_voxel, voxel, sizeof(std::int32_t));
     const __m256i same = _mm256_cmpeq_epi32(of_point, object);
     const __m256i is_own = _mm256_srli_epi32(same, 31);
     const __m256i b = floor_to_int(_mm256_div_ps(_mm256_sub_ps(_mm256_loadu_ps(points.f + k), first), bin));
@@ -156,16 +157,20 @@ GRASPD_AVX2 void tag_band(const BandTags& tags, const BandPoints& points, std::i
                               marks + k);
 }
 
-GRASPD_AVX2 std::size_t keep_depths(const BandPoints& points, const std::int32_t* own, float f_min,
-                                    float f_max, float* out) {
-  const __m256 min = _mm256_set1_ps(f_min), max = _mm256_set1_ps(f_max);
+GRASPD_AVX2 std::size_t keep_depths(const BandPoints& points, const std::int32_t* own, const BandPart& part,
+                                    float* out) {
+  const __m256 f_min = _mm256_set1_ps(part.f_min), f_max = _mm256_set1_ps(part.f_max),
+               z_min = _mm256_set1_ps(part.z_min);
   std::size_t n = 0;
   for (std::size_t k = 0; k < points.size; k += 8) {
-    const __m256 f = _mm256_loadu_ps(points.f + k);
-    const __m256 within = _mm256_and_ps(_mm256_cmp_ps(f, min, _CMP_GE_OQ), _mm256_cmp_ps(f, max, _CMP_LE_OQ));
+    const __m256 f = _mm256_loadu_ps(points.f + k), z = _mm256_loadu_ps(points.z + k);
+    const __m256 between =
+        _mm256_and_ps(_mm256_cmp_ps(f, f_min, _CMP_GE_OQ), _mm256_cmp_ps(f, f_max, _CMP_LE_OQ));
     const __m256 is_own = _mm256_castsi256_ps(_mm256_cmpgt_epi32(load(own + k), _mm256_setzero_si256()));
-    const unsigned mask = valid_lanes(_mm256_movemask_ps(_mm256_and_ps(within, is_own)), k, points.size);
-    store(out + n, _mm256_loadu_ps(points.z + k), lanes_of(mask));
+    const __m256 is_in = _mm256_and_ps(_mm256_and_ps(between, _mm256_cmp_ps(z, z_min, _CMP_GE_OQ)), is_own);
+    const unsigned mask = valid_lanes(_mm256_movemask_ps(is_in), k, points.size);
+    if (mask == 0) continue;
+    store(out + n, z, lanes_of(mask));
     n += static_cast<std::size_t>(std::popcount(mask));
   }
   return n;

@@ -14,7 +14,7 @@
 namespace graspd {
 namespace {
 
-constexpr float kPointCell = 0.015f;  // of the grid for box queries [m]
+constexpr float kPointCell = 0.02f;  // of the grid for box queries [m]
 // Stray points a volume may have: counts are absolute, noise does not scale.
 constexpr int kSparseTolerance = 2, kPointTolerance = 4;
 constexpr int kMinSparse = 6, kMinPoints = 12;  // of the object between the jaws
@@ -43,15 +43,6 @@ Results check_all(const SceneView& scene, const Gripper& gripper, const HandleCh
     }
   });
   return results;
-}
-
-std::pmr::vector<std::int32_t> spread_to_points(const std::pmr::vector<std::int32_t>& of_voxel,
-                                                const std::pmr::vector<std::uint32_t>& voxel_of_point) {
-  std::pmr::vector<std::int32_t> of_point(voxel_of_point.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, of_point.size(), 16384), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i != range.end(); ++i) of_point[i] = of_voxel[voxel_of_point[i]];
-  });
-  return of_point;
 }
 
 FoundHandle scored(const CheckResult& result, const Guess& guess, int object, const SceneView& scene) {
@@ -131,31 +122,29 @@ GuessSearch::GuessSearch(const CheckedScene& scene, const Objects& objects, cons
     : guess_{objects, points_by_object(objects)},
       gripper_(gripper),
       config_(config),
-      object_of_point_(spread_to_points(objects.of_point, scene.surfaces.voxel_of_point)),
-      object_of_sparse_(spread_to_points(objects.of_point, scene.surfaces.sparse.voxel)),
       outlines_(scene.surfaces.cloud, guess_.points),
       coarse_check_(coarse_limits(config.check)),
       input_{scene.surfaces.cloud, scene.surfaces.normals, scene.surfaces.segments, objects,
              guess_.points,        scene.surfaces.support},
       sparse_{scene.surfaces.sparse.cloud,
               scene.surfaces.sparse.query,
-              object_of_sparse_,
+              objects.of_point,
               scene.surfaces.normals,
               scene.surfaces.sparse.voxel,
               scene.surfaces.support,
               scene.index.depth_map,
-              object_of_point_,
+              scene.surfaces.voxel_of_point,
               kSparseTolerance,
               kMinSparse,
               scene.surfaces.sparse.spacing_m},
       points_{scene.cloud,
               scene.index.query,
-              object_of_point_,
+              objects.of_point,
               scene.surfaces.normals,
               scene.surfaces.voxel_of_point,
               scene.surfaces.support,
               scene.index.depth_map,
-              object_of_point_,
+              scene.surfaces.voxel_of_point,
               kPointTolerance,
               kMinPoints} {}
 

@@ -75,7 +75,6 @@ class GuessSearch {
   Guess guess_;
   const Gripper& gripper_;
   const DetectConfig& config_;
-  std::pmr::vector<std::int32_t> object_of_point_, object_of_sparse_;
   ObjectOutlines outlines_;
   HandleCheckConfig coarse_check_;
   SearchInput input_;

@@ -225,7 +225,7 @@ float Check::hidden_share(float f0, float f1, float z0, float z1, bool by_others
       for (const std::int32_t hider : hiders) {
         ++samples;
         if (hider == DepthMap::kFree) continue;
-        const bool by_own = scene_.depth_map_object[static_cast<std::size_t>(hider)] == candidate_.object;
+        const bool by_own = scene_.object_at(hider) == candidate_.object;
         hidden += by_others && by_own ? 0 : 1;
       }
     }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "service/pipeline/cell_order.hpp"
@@ -70,20 +71,51 @@ Eigen::Vector3f rectangle_axis(const PointCloud& cloud, const Segment& segment) 
   return best;
 }
 
-/// Mean normal of the object's voxels near a seed. near: working memory, with room for them all.
-Eigen::Vector3f face_normal(const SearchInput& in, const PaddedPoints& object, std::uint32_t seed,
-                            std::pmr::vector<std::uint32_t>& near) {
-  constexpr float kRadius = 0.015f;
-  const Eigen::Vector3f p = in.cloud.point(seed), n = in.normals.at(seed);
-  near.resize(object.size() + kPointPadding);
-  const PointSpan whole{0, static_cast<std::uint32_t>(object.size())};
-  near.resize(point_kernels().keep_near({p.x(), p.y(), p.z()}, kRadius * kRadius, object.all(), {&whole, 1},
-                                        near.data()));
-  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-  for (const std::uint32_t i : near)
-    if (in.normals.at(i).dot(n) > 0.8f) sum += in.normals.at(i);
-  return sum.norm() > 1e-3f ? sum.normalized() : n;
-}
+/// An object's voxels in blocks of a few that follow one another and so are near each other: most blocks are
+/// nowhere near a seed.
+class FaceNormals {
+ public:
+  FaceNormals(const SearchInput& in, std::span<const std::uint32_t> object)
+      : in_(in), points_(in.cloud, object), near_(object.size() + kPointPadding) {
+    constexpr float kFar = std::numeric_limits<float>::max();
+    for (std::size_t from = 0; from < points_.size(); from += kBlock) {
+      const PointRange part = points_.range(from, std::min(from + kBlock, points_.size()));
+      Eigen::Array3f low(kFar, kFar, kFar), high = -low;
+      point_kernels().extend_bounds(part.x, part.size, low.x(), high.x());
+      point_kernels().extend_bounds(part.y, part.size, low.y(), high.y());
+      point_kernels().extend_bounds(part.z, part.size, low.z(), high.z());
+      low_.push_back(low - kReach);
+      high_.push_back(high + kReach);
+    }
+    spans_.reserve(low_.size());
+  }
+
+  /// Mean normal of those near the seed.
+  [[nodiscard]] Eigen::Vector3f at(std::uint32_t seed) {
+    const Eigen::Vector3f p = in_.cloud.point(seed), n = in_.normals.at(seed);
+    spans_.clear();
+    for (std::size_t k = 0; k < low_.size(); ++k)
+      if ((p.array() >= low_[k]).all() && (p.array() <= high_[k]).all())
+        spans_.push_back({static_cast<std::uint32_t>(k * kBlock),
+                          static_cast<std::uint32_t>(std::min((k + 1) * kBlock, points_.size()))});
+    const std::size_t num_near = point_kernels().keep_near({p.x(), p.y(), p.z()}, kRadius * kRadius,
+                                                           points_.all(), spans_, near_.data());
+    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+    for (std::size_t k = 0; k < num_near; ++k)
+      if (in_.normals.at(near_[k]).dot(n) > 0.8f) sum += in_.normals.at(near_[k]);
+    return sum.norm() > 1e-3f ? sum.normalized() : n;
+  }
+
+ private:
+  static constexpr std::size_t kBlock = 64;
+  static constexpr float kRadius = 0.015f, kReach = kRadius + 1e-5f;
+
+  const SearchInput& in_;
+  PaddedPoints points_;
+  std::pmr::vector<Eigen::Array3f> low_, high_;  // of each block, and what is within reach
+  std::pmr::vector<PointSpan> spans_;
+  RawVector<std::uint32_t> near_;
+};
 
 }  // namespace
 
@@ -107,14 +139,13 @@ HandleSearch::HandleSearch(const SearchInput& input, const Gripper& gripper, con
 }
 
 std::pmr::vector<HandleSearch::Seed> HandleSearch::spread_seeds(std::span<const std::uint32_t> points) const {
-  const PaddedPoints object(in_.cloud, points);
-  std::pmr::vector<std::uint32_t> near;
+  FaceNormals normals(in_, points);
   std::pmr::vector<Seed> seeds;
   for (const std::uint32_t k : thin_out(points_at(in_.cloud, points), config_.seed_spacing_m)) {
     const std::uint32_t seed = points[k];
     const std::int32_t s = in_.segments.of_point[seed];
     if (s >= 0 && wanted_[static_cast<std::size_t>(s)] != 0)
-      seeds.push_back({seed, outward_directions(seed, face_normal(in_, object, seed, near))});
+      seeds.push_back({seed, outward_directions(seed, normals.at(seed))});
   }
   return seeds;
 }
@@ -144,6 +175,7 @@ HandleSearch::Directions HandleSearch::major_axes(std::size_t s, const Eigen::Ve
     suggested.push_back(in_.support->plane.normal.cross(outward));
   }
   Directions axes;
+  axes.reserve(2 * suggested.size());
   for (const Eigen::Vector3f& axis : suggested) {
     const Eigen::Vector3f across = axis - axis.dot(outward) * outward;
     if (across.norm() < 0.3f) continue;
@@ -181,14 +213,19 @@ void HandleSearch::add_bands(std::size_t s, const Eigen::Vector3f& axis,
   const auto along = [&](std::uint32_t i) {
     return axis.dot(in_.cloud.point(i) - segment.centroid) / gripper_.finger_thickness_m;
   };
+  RawVector<float> places(segment.points.size());
   float reach = 0;
-  for (const std::uint32_t i : segment.points) reach = std::max(reach, std::abs(along(i)));
-  const int half = static_cast<int>(std::lround(reach));
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    places[k] = along(segment.points[k]);
+    reach = std::max(reach, std::abs(places[k]));
+  }
+  const auto rounded = [](float place) { return cell_index(place + 0.5f, 1); };
+  const int half = rounded(reach);
   std::pmr::vector<Band> bands(static_cast<std::size_t>(2 * half + 1));
-  for (const std::uint32_t i : segment.points) {
-    const int k = std::clamp(static_cast<int>(std::lround(along(i))) + half, 0, 2 * half);
-    bands[static_cast<std::size_t>(k)].sum += in_.cloud.point(i);
-    ++bands[static_cast<std::size_t>(k)].n;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    Band& band = bands[static_cast<std::size_t>(std::clamp(rounded(places[k]) + half, 0, 2 * half))];
+    band.sum += in_.cloud.point(segment.points[k]);
+    ++band.n;
   }
   for (const Band& band : bands)
     if (band.n >= kMinBandPoints)
@@ -203,13 +240,16 @@ void HandleSearch::add_seeds(std::size_t object, SearchRound round, std::pmr::ve
   for (std::size_t k = 0; k < num_seeds; ++k) {
     const Seed& seed = seeds[k * seeds.size() / num_seeds];
     const std::int32_t s = in_.segments.of_point[seed.point];
-    const std::size_t num_outward = all ? std::min<std::size_t>(2, seed.outward.size()) : seed.outward.size();
+    constexpr std::size_t kFirst = 2;  // outward directions and axes
+    const bool is_first_round = round == SearchRound::kSurface;
+    const std::size_t num_outward =
+        all || is_first_round ? std::min(kFirst, seed.outward.size()) : seed.outward.size();
     for (std::size_t o = 0; o < num_outward; ++o) {
       const Directions axes = major_axes(static_cast<std::size_t>(s), seed.outward[o], round);
       // The surface's own normal and axes first (paper, section 5), the support's normal next to them.
       for (std::size_t a = 0; a < axes.size(); ++a) {
-        const bool first = o < 2 && a < 2;
-        if (all || first == (round == SearchRound::kSurface))
+        const bool is_first = o < kFirst && a < kFirst;
+        if (all || is_first == is_first_round)
           out.push_back({in_.cloud.point(seed.point), gripper_axes(seed.outward[o], axes[a]), s,
                          static_cast<std::int32_t>(object)});
       }

@@ -14,7 +14,9 @@
 namespace graspd {
 namespace {
 
-constexpr float kBin = 0.001f;  // of the profile along the closing axis [m]
+constexpr float kBelowTips = 0.005f;  // how far the checks look [m]
+constexpr float kLower = 0.007f;      // than the place looked at a top may be [m]
+constexpr float kBin = 0.001f;        // of the profile along the closing axis [m]
 constexpr float kTopWindow =
     0.012f;  // around the candidate's position, where the top is looked for first [m]
 
@@ -49,11 +51,10 @@ int nearest(const BinSet& bins, int bin, int within) {
   return up <= down ? after : before;
 }
 
-/// Depth that only a few of the object's points between f_min and f_max are above.
-bool find_top(CheckBuffers& buffers, float f_min, float f_max, float& top_m) {
+/// Depth that only a few of the object's points of a part are above.
+bool find_top(CheckBuffers& buffers, const BandPart& part, float& top_m) {
   std::pmr::vector<float>& z = buffers.depths;
-  const std::size_t n =
-      point_kernels().keep_depths(buffers.local.band(), buffers.own.data(), f_min, f_max, z.data());
+  const std::size_t n = point_kernels().keep_depths(buffers.local.band(), buffers.own.data(), part, z.data());
   if (n < 4) return false;
   const std::size_t skip = std::min(n / 4, std::max<std::size_t>(1, n / 50));
   top_m = nth_value({z.data(), n}, skip);
@@ -166,19 +167,19 @@ Failure find_patch(const PatchSearch& search, CheckBuffers& buffers, float f0, P
 }
 
 /// The top of the whole patch may be higher than where the search began; then the depths below it are others,
-/// and the patch too. gather(z): the points around depth z.
-template <class Gather>
-Failure settle_top(const PatchSearch& search, CheckBuffers& buffers, const Gather& gather, PatchFit& fit) {
+/// and the patch too. look_at(z): the points around depth z; returns from which depth on.
+template <class LookAt>
+Failure settle_top(const PatchSearch& search, CheckBuffers& buffers, const LookAt& look_at, PatchFit& fit) {
   constexpr int kMostRounds = 4;
-  float gathered_m = 0;
+  float looked_at_m = 0, z_min = look_at(0);
   for (int round = 0; round < kMostRounds; ++round) {
-    // What was gathered may end short of a top so far up, or of what is in the fingers' way above it.
-    const bool is_far_up = fit.top_m < gathered_m - kTopWindow;
-    if (is_far_up) gather(gathered_m = fit.top_m);
+    // What was looked at may end short of a top so far up, or of what is in the fingers' way above it.
+    const bool is_elsewhere = fit.top_m < looked_at_m - kTopWindow || fit.top_m > looked_at_m + kLower;
+    if (is_elsewhere) z_min = look_at(looked_at_m = fit.top_m);
     const float before = fit.top_m;
     const float low = fit.center_m - 0.5f * fit.width_m, high = low + fit.width_m;
-    if (!find_top(buffers, low, high, fit.top_m)) return Failure::kTooFewPoints;
-    if (!is_far_up && std::abs(fit.top_m - before) < kBin) break;
+    if (!find_top(buffers, {low, high, z_min}, fit.top_m)) return Failure::kTooFewPoints;
+    if (!is_elsewhere && std::abs(fit.top_m - before) < kBin) break;
     if (const Failure failure = find_patch(search, buffers, fit.center_m, fit); failure != Failure::kNone)
       return failure;
   }
@@ -194,7 +195,8 @@ void shift(LocalPoints& local, float f, float z) {
 
 BandTags band_tags(const SceneView& scene, const Candidate& candidate, float reach_m) {
   // Where the support is in the way, the fingers go less deep: it does not widen the patch.
-  return {scene.object.data(),
+  return {scene.object_of_voxel.data(),
+          scene.voxel.data(),
           candidate.object,
           kSupportObject,
           -reach_m,
@@ -222,20 +224,26 @@ Failure fit_patch(const SceneView& scene, const Gripper& gripper, const HandleCh
   const Gripper& g = gripper;
   const float reach = profile_reach(scene, g);
   const BandTags tags = band_tags(scene, candidate, reach);
-  // As far up as the fingers reach when they go in the least deep.
-  const float above = g.finger_length_m - config.min_grip_depth_m + kTopWindow;
-  const auto gather = [&](float z) {
-    scene.query.find(
-        candidate.position, candidate.rotation, {-0.5f * g.finger_thickness_m, -reach, z - above},
-        {0.5f * g.finger_thickness_m, reach, z + g.grasp_depth_m + 2 * kTopWindow}, buffers.local);
-    describe_points(tags, buffers);
+  // As far up as the fingers reach when they go in the least deep; and further, as most tops are there.
+  const float above = g.finger_length_m - config.min_grip_depth_m + kTopWindow, further = g.finger_length_m;
+  const float below = g.grasp_depth_m + kBelowTips + kLower;
+  float gathered_m = std::numeric_limits<float>::infinity();
+  const auto look_at = [&](float z) {
+    if (!(z <= gathered_m && z >= gathered_m - further)) {
+      gathered_m = z;
+      scene.query.find(candidate.position, candidate.rotation,
+                       {-0.5f * g.finger_thickness_m, -reach, z - above - further},
+                       {0.5f * g.finger_thickness_m, reach, z + below}, buffers.local);
+      describe_points(tags, buffers);
+    }
+    return z - above;
   };
-  gather(0);
-  if (!find_top(buffers, -kTopWindow, kTopWindow, fit.top_m)) return Failure::kTooFewPoints;
+  if (!find_top(buffers, {-kTopWindow, kTopWindow, look_at(0)}, fit.top_m)) return Failure::kTooFewPoints;
+  if (fit.top_m > kLower) look_at(fit.top_m);
   const auto fit_to = [&](float depth_m) {
     const PatchSearch search{tags, g, config, depth_m};
     const Failure failure = find_patch(search, buffers, 0, fit);
-    return failure != Failure::kNone ? failure : settle_top(search, buffers, gather, fit);
+    return failure != Failure::kNone ? failure : settle_top(search, buffers, look_at, fit);
   };
   // What the fingertips may be less deep by.
   float room = g.grasp_depth_m - config.min_grip_depth_m;

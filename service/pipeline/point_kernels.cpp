@@ -217,19 +217,19 @@ void tag_band(const BandTags& tags, const BandPoints& points, std::int32_t* own,
   for (std::size_t k = 0; k < points.size; ++k)
     marks[k] = cell_index((points.f[k] - tags.first) / tags.bin, 1);
   for (std::size_t k = 0; k < points.size; ++k) {
-    const std::int32_t object = tags.object_of_point[points.index[k]], bin = marks[k];
+    const std::int32_t object = tags.object_of_voxel[tags.voxel_of_point[points.index[k]]], bin = marks[k];
     own[k] = object == tags.object ? 1 : 0;
     const bool has_entry = object != tags.left_out && bin >= 0 && bin < tags.num_bins;
     marks[k] = has_entry ? bin + own[k] * stride : tags.no_mark();
   }
 }
 
-std::size_t keep_depths(const BandPoints& points, const std::int32_t* own, float f_min, float f_max,
-                        float* out) {
+std::size_t keep_depths(const BandPoints& points, const std::int32_t* own, const BandPart& part, float* out) {
   std::size_t n = 0;
   for (std::size_t k = 0; k < points.size; ++k) {
     out[n] = points.z[k];
-    n += static_cast<std::size_t>(own[k] & int{points.f[k] >= f_min} & int{points.f[k] <= f_max});
+    n += static_cast<std::size_t>(own[k] & int{points.f[k] >= part.f_min} & int{points.f[k] <= part.f_max} &
+                                  int{points.z[k] >= part.z_min});
   }
   return n;
 }

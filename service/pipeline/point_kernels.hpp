@@ -67,7 +67,8 @@ struct BandPoints {
 
 /// Whose points are the candidate's, and how the profile along f is divided.
 struct BandTags {
-  const std::int32_t* object_of_point;
+  const std::int32_t* object_of_voxel;
+  const std::uint32_t* voxel_of_point;
   std::int32_t object, left_out;  ///< points of left_out take no part in the profile
   float first, bin;               ///< where bin 0 begins, and the length of each [m]
   std::int32_t num_bins;
@@ -77,6 +78,11 @@ struct BandTags {
   [[nodiscard]] std::size_t stride() const { return (static_cast<std::size_t>(num_bins) + 63) / 64 * 64; }
   /// The mark of points that have no bin.
   [[nodiscard]] std::int32_t no_mark() const { return static_cast<std::int32_t>(2 * stride()); }
+};
+
+/// Part of a band; bounds belong to it.
+struct BandPart {
+  float f_min, f_max, z_min;
 };
 
 /// Part of a band, about its middle and top; bounds belong to it.
@@ -268,9 +274,9 @@ struct PointKernels {
   /// own: 1 for each point of the object; marks: bin + own stride(), or no_mark(). There must be room for
   /// size + kPointPadding, and as many points to read.
   void (*tag_band)(const BandTags& tags, const BandPoints& points, std::int32_t* own, std::int32_t* marks);
-  /// Writes z of the own points with f in [f_min, f_max], in their order; returns their number. There must be
-  /// room for size + kPointPadding, and as many points to read.
-  std::size_t (*keep_depths)(const BandPoints& points, const std::int32_t* own, float f_min, float f_max,
+  /// Writes z of the own points in the part, in their order; returns their number. There must be room for
+  /// size + kPointPadding, and as many points to read.
+  std::size_t (*keep_depths)(const BandPoints& points, const std::int32_t* own, const BandPart& part,
                              float* out);
   /// Writes the positions among the points of those within the limits, ascending; returns their number. There
   /// must be room for size + kPointPadding, and as many points to read.

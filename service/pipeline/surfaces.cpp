@@ -11,7 +11,7 @@
 namespace graspd {
 namespace {
 
-constexpr float kQueryCell = 0.02f;     // of the grid for box queries [m]
+constexpr float kQueryCell = 0.03f;     // of the grid for box queries [m]
 constexpr float kSparseLeaves = 1.33f;  // between the voxels of first looks: with more, objects are missed
 
 /// The support's points, which have no neighbourhoods, have the plane's normal.

@@ -90,13 +90,14 @@ void number_cells(const PointKernels& kernels, Block& b) {
 }
 
 void tag_band(const PointKernels& kernels, Block& b) {
-  const BandTags tags{b.object.data(), 1, 2, -0.1f, 0.003f, 67};
+  const BandTags tags{b.object.data(), b.index.data(), 1, 2, -0.1f, 0.003f, 67};
   kernels.tag_band(tags, b.band(), b.own.data(), b.bins.data());
   benchmark::DoNotOptimize(b.bins.data());
 }
 
 void keep_depths(const PointKernels& kernels, Block& b) {
-  benchmark::DoNotOptimize(kernels.keep_depths(b.band(), b.own.data(), -0.04f, 0.04f, b.depth.data()));
+  benchmark::DoNotOptimize(
+      kernels.keep_depths(b.band(), b.own.data(), {-0.04f, 0.04f, -0.05f}, b.depth.data()));
 }
 
 using Kernel = void (*)(const PointKernels&, Block&);

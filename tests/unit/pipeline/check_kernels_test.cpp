@@ -91,25 +91,28 @@ TEST(CheckKernels, TagBandsAndKeepDepths) {
   constexpr std::int32_t kOwn = 3, kLeftOut = -2;
   for (const std::size_t size : {0, 5, 8, 21, 400}) {
     Points points(size, 5);
-    std::pmr::vector<std::int32_t> object_of_point(size + 1000 + kPointPadding);
-    for (std::size_t i = 0; i < object_of_point.size(); ++i)
-      object_of_point[i] = static_cast<std::int32_t>(i % 7) - 2;
+    constexpr std::uint32_t kVoxels = 41;
+    std::pmr::vector<std::int32_t> object_of_voxel(kVoxels);
+    for (std::size_t i = 0; i < kVoxels; ++i) object_of_voxel[i] = static_cast<std::int32_t>(i % 7) - 2;
+    std::pmr::vector<std::uint32_t> voxel_of_point(size + 1000 + kPointPadding);
+    for (std::uint32_t i = 0; i < voxel_of_point.size(); ++i) voxel_of_point[i] = 5 * i % kVoxels;
     const BandPoints band{points.x.data(), points.y.data(), points.index.data(), size};
-    const BandTags tags{object_of_point.data(), kOwn, kLeftOut, -0.8f, 0.01f, 150};
+    const BandTags tags{object_of_voxel.data(), voxel_of_point.data(), kOwn, kLeftOut, -0.8f, 0.01f, 150};
     for (const Form& form : forms()) {
       std::pmr::vector<std::int32_t> own(size + kPointPadding, -9), marks(own);
       form.kernels->tag_band(tags, band, own.data(), marks.data());
       std::pmr::vector<float> expected;
       for (std::size_t k = 0; k < size; ++k) {
-        const std::int32_t object = object_of_point[points.index[k]];
+        const std::int32_t object = object_of_voxel[voxel_of_point[points.index[k]]];
         EXPECT_EQ(own[k], object == kOwn ? 1 : 0);
         const auto bin = static_cast<std::int32_t>(std::floor((points.x[k] + 0.8f) / 0.01f));
         const bool has_none = object == kLeftOut || bin < 0 || bin >= 150;
         EXPECT_EQ(marks[k], has_none ? 384 : bin + 192 * own[k]) << form.name << " " << points.x[k];
-        if (object == kOwn && points.x[k] >= -0.5f && points.x[k] <= 0.25f) expected.push_back(points.y[k]);
+        if (object == kOwn && points.x[k] >= -0.5f && points.x[k] <= 0.25f && points.y[k] >= -0.7f)
+          expected.push_back(points.y[k]);
       }
       std::pmr::vector<float> depths(size + kPointPadding);
-      depths.resize(form.kernels->keep_depths(band, own.data(), -0.5f, 0.25f, depths.data()));
+      depths.resize(form.kernels->keep_depths(band, own.data(), {-0.5f, 0.25f, -0.7f}, depths.data()));
       EXPECT_EQ(depths, expected) << form.name << " " << size;
     }
   }

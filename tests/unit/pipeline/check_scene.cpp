@@ -14,13 +14,6 @@ namespace {
 
 constexpr float kCell = 0.015f;  // of the grid for box queries [m]
 
-std::pmr::vector<std::int32_t> objects_of_points(const Surfaces& surfaces) {
-  std::pmr::vector<std::int32_t> objects;
-  for (const std::uint32_t voxel : surfaces.voxel_of_point)
-    objects.push_back(surfaces.objects.of_point[voxel]);
-  return objects;
-}
-
 float radians(float degrees) {
   return degrees * std::numbers::pi_v<float> / 180;
 }
@@ -32,15 +25,14 @@ CheckScene::CheckScene(const AnalyticScene& scene)
       surfaces_(find_surfaces(cloud_, {}, [](std::string_view) {})),
       depth_map_(cloud_),
       query_(cloud_, kCell),
-      object_of_point_(objects_of_points(surfaces_)),
       view_{cloud_,
             query_,
-            object_of_point_,
+            surfaces_.objects.of_point,
             surfaces_.normals,
             surfaces_.voxel_of_point,
             surfaces_.support,
             depth_map_,
-            object_of_point_,
+            surfaces_.voxel_of_point,
             4,
             12} {}
 
@@ -53,9 +45,9 @@ Candidate CheckScene::candidate(const Eigen::Vector3f& position, const Eigen::Ve
   float nearest = std::numeric_limits<float>::infinity();
   for (std::size_t i = 0; i < cloud_.size(); ++i) {
     const float distance = (cloud_.point(i) - position).squaredNorm();
-    if (object_of_point_[i] < 0 || distance >= nearest) continue;
+    if (object_of(i) < 0 || distance >= nearest) continue;
     nearest = distance;
-    candidate.object = object_of_point_[i];
+    candidate.object = object_of(i);
   }
   return candidate;
 }
@@ -85,7 +77,7 @@ std::array<Contact, 2> CheckScene::contacts(const Candidate& candidate, const Gr
   std::pmr::vector<Eigen::Vector2f> profile;
   float low = 1, high = -1, top = 1;
   for (std::uint32_t k = 0; k < local.size(); ++k) {
-    if (object_of_point_[local.index[k]] != candidate.object) continue;
+    if (object_of(local.index[k]) != candidate.object) continue;
     between.push_back(k);
     profile.emplace_back(local.f[k], local.z[k]);
     low = std::min(low, local.f[k]);

@@ -29,6 +29,9 @@ class CheckScene {
                                                 const Gripper& gripper = {}) const;
 
  private:
+  [[nodiscard]] std::int32_t object_of(std::size_t point) const {
+    return surfaces_.objects.of_point[surfaces_.voxel_of_point[point]];
+  }
   /// Share of a finger's volume that is hidden, when it stands beside f_m.
   [[nodiscard]] float hidden_share(const Candidate& candidate, const Gripper& gripper, float f_m,
                                    float side) const;
@@ -37,7 +40,6 @@ class CheckScene {
   Surfaces surfaces_;
   DepthMap depth_map_;
   BoxQuery query_;
-  std::pmr::vector<std::int32_t> object_of_point_;
   SceneView view_;
 };
 
