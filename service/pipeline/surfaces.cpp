@@ -6,6 +6,7 @@
 
 #include <utility>
 
+#include "service/pipeline/leftovers.hpp"
 #include "service/pipeline/thin_out.hpp"
 
 namespace graspd {
@@ -65,6 +66,7 @@ void find_objects(const Neighborhoods& neighborhoods, const DetectConfig& config
   s.is_edge = find_edge_points(s.normals, neighborhoods, config.smoothness);
   done("edge_points");
   Labels labels = grow_regions(s.normals, neighborhoods, s.is_edge, is_support, config.smoothness);
+  label_leftovers(s.cloud, neighborhoods, is_support, config.segments.min_area_m2 / (leaf * leaf), labels);
   done("region_growing");
   s.segments = build_segments(s.cloud, labels, leaf, config.segments);
   std::pmr::vector<std::uint8_t> is_fixed = is_support;

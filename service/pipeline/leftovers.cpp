@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/pipeline/leftovers.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <map>
+
+#include "service/pipeline/union_find.hpp"
+
+namespace graspd {
+namespace {
+
+/// 1 for each point that takes part and is of no surface that is large enough.
+std::pmr::vector<std::uint8_t> find_leftovers(const std::pmr::vector<std::uint8_t>& excluded,
+                                              float min_points, const Labels& labels) {
+  std::pmr::vector<std::uint32_t> count(static_cast<std::size_t>(labels.num_labels));
+  for (const std::int32_t label : labels.of_point)
+    if (label >= 0) ++count[static_cast<std::size_t>(label)];
+  std::pmr::vector<std::uint8_t> is_left(labels.of_point.size());
+  for (std::size_t i = 0; i < is_left.size(); ++i) {
+    const std::int32_t label = labels.of_point[i];
+    const bool is_of_surface =
+        label >= 0 && static_cast<float>(count[static_cast<std::size_t>(label)]) >= min_points;
+    is_left[i] = !is_of_surface && (excluded.empty() || excluded[i] == 0) ? 1 : 0;
+  }
+  return is_left;
+}
+
+/// At least a few times as long as wide.
+bool is_long(const PointCloud& cloud, const std::pmr::vector<std::uint32_t>& points) {
+  constexpr double kLonger = 16;  // variance along the axis against that across it
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const std::uint32_t i : points) mean += cloud.point(i).cast<double>();
+  mean /= static_cast<double>(points.size());
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (const std::uint32_t i : points) {
+    const Eigen::Vector3d d = cloud.point(i).cast<double>() - mean;
+    covariance += d * d.transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance, Eigen::EigenvaluesOnly);
+  return solver.eigenvalues()(2) >= kLonger * solver.eigenvalues()(1);
+}
+
+/// The components of the points that are left, in the order of their first points.
+std::pmr::map<std::uint32_t, std::pmr::vector<std::uint32_t>> components(
+    const Neighborhoods& neighborhoods, const std::pmr::vector<std::uint8_t>& is_left) {
+  UnionFind sets(is_left.size());
+  for (std::uint32_t i = 0; i < is_left.size(); ++i) {
+    if (is_left[i] == 0) continue;
+    for (const std::uint32_t j : neighborhoods.of(i))
+      if (j > i && is_left[j] != 0) sets.unite(i, j);
+  }
+  std::pmr::map<std::uint32_t, std::pmr::vector<std::uint32_t>> result;
+  for (std::uint32_t i = 0; i < is_left.size(); ++i)
+    if (is_left[i] != 0) result[sets.find(i)].push_back(i);
+  return result;
+}
+
+}  // namespace
+
+void label_leftovers(const PointCloud& cloud, const Neighborhoods& neighborhoods,
+                     const std::pmr::vector<std::uint8_t>& excluded, float min_points, Labels& labels) {
+  for (const auto& [first, points] :
+       components(neighborhoods, find_leftovers(excluded, min_points, labels))) {
+    if (static_cast<float>(points.size()) < min_points || !is_long(cloud, points)) continue;
+    for (const std::uint32_t i : points) labels.of_point[i] = labels.num_labels;
+    ++labels.num_labels;
+  }
+}
+
+}  // namespace graspd
