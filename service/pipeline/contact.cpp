@@ -68,7 +68,7 @@ Eigen::Vector3f fit_profile(Face face, float span) {
 }
 
 struct EndPoints {
-  int near = 0, facing = 0;
+  int near = 0, facing = 0, seen = 0;
   Eigen::Vector3f facing_sum = Eigen::Vector3f::Zero();  // of the normals
   Face face;
 };
@@ -84,6 +84,7 @@ EndPoints collect_end(const ContactInput& in, float side, float end_m, float min
     if (n.isZero()) continue;
     if (inwards <= kEndZone) {
       ++out.near;
+      out.seen += in.scene.is_seen(in.local.index[k]) ? 1 : 0;
       if (jaw.dot(n) >= in.min_facing_cosine) {
         ++out.facing;
         out.facing_sum += n;
@@ -198,7 +199,10 @@ Contact find_contact(const ContactInput& in, float side, float end_m, float hidd
   const EndPoints end = collect_end(in, side, end_m, hidden_share <= kSeenFree ? 0.5f : 0.7f);
   if (end.near < 2) return {ContactKind::kNone, end_m, {}};
   if (static_cast<float>(end.facing) >= kWallShare * static_cast<float>(end.near))
-    return {ContactKind::kWall, end_m, in.rotation.transpose() * end.facing_sum.normalized()};
+    return {2 * end.seen >= end.near ? ContactKind::kWall : ContactKind::kCurvedEdge, end_m,
+            in.rotation.transpose() * end.facing_sum.normalized()};
+  // A far side that turns away from the jaw is none to hold by.
+  if (2 * end.seen < end.near) return {ContactKind::kNone, end_m, {}};
   const Eigen::Vector3f to_sensor = (in.scene.cloud.viewpoint - in.position).normalized();
   if (side * in.rotation.col(1).dot(to_sensor) > kCameraSide || too_small(in, end.face))
     return {ContactKind::kNone, end_m, {}};

@@ -95,7 +95,8 @@ void add_for_parts_without(const Surfaces& surfaces, std::pmr::vector<FoundHandl
 
 FoundHandles find_handles(const PointCloud& cloud, const PointIndex& index, const Surfaces& surfaces,
                           const Gripper& gripper, const DetectConfig& config) {
-  const CheckedScene scene{cloud, index, surfaces};
+  const FarSides far_sides = find_far_sides(surfaces, index.depth_map);
+  const CheckedScene scene{cloud, index, surfaces, far_sides};
   CheckBuffersOfThreads buffers;
   Settler settler(gripper, config.check, buffers);
   SearchResult result;

@@ -29,6 +29,7 @@ struct CheckedScene {
   const PointCloud& cloud;
   const PointIndex& index;
   const Surfaces& surfaces;
+  const FarSides& far_sides;
 };
 
 /// At what belongs together.

@@ -61,6 +61,8 @@ class Check {
   [[nodiscard]] float hidden_share(float f0, float f1, float z0, float z1, bool by_others) const;
   [[nodiscard]] float finger_hidden_share(int side, bool by_others) const;
   [[nodiscard]] float area_per_point() const;
+  /// Of the object between the jaws [m2].
+  [[nodiscard]] float seen_area() const { return area_per_point() * static_cast<float>(num_seen_); }
   void set_width_from(const Contact& low, const Contact& high);
   [[nodiscard]] Eigen::Vector3f squared_axis(const Contact& low, const Contact& high, bool round) const;
 
@@ -74,6 +76,7 @@ class Check {
   Handle handle_;
   HandleMargins margins_;
   Eigen::Vector3f squared_ = Eigen::Vector3f::Zero();  // closing axis that meets the object squarely
+  int num_seen_ = 0;                                   // of the points between the jaws, measured ones
   float end_[2] = {0, 0};  // of the object's points between the jaws, along f from the handle's position
   float top_ = 0;          // their smallest depth
   float side_slope_ = 0;   // of the object's sides against the major axis, df / da, mean of both
@@ -87,9 +90,12 @@ std::size_t Check::select(float min_distance, float max_distance, float min_dept
 void Check::keep_own(std::size_t n) {
   between_.resize(n);
   std::size_t own = 0;
+  num_seen_ = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    between_[own] = buffers_.selected[i];
-    own += static_cast<std::size_t>(buffers_.own[buffers_.selected[i]]);
+    const std::uint32_t k = buffers_.selected[i];
+    between_[own] = k;
+    own += static_cast<std::size_t>(buffers_.own[k]);
+    num_seen_ += buffers_.own[k] != 0 && scene_.is_seen(local_.index[k]) ? 1 : 0;
   }
   between_.resize(own);
 }
@@ -102,15 +108,18 @@ Failure Check::check_volumes() {
   const std::size_t all = select(0, half, palm_top, g.grasp_depth_m);
   keep_own(all);
   const auto own = static_cast<int>(between_.size());
-  handle_.num_points = own;
-  if (own < scene_.min_points) return Failure::kTooFewPoints;
+  handle_.num_points = num_seen_;
+  if (num_seen_ < scene_.min_points) return Failure::kTooFewPoints;
   if (static_cast<float>(own) < config_.min_own_share * static_cast<float>(all)) return Failure::kNoGap;
   const float beside = std::nextafter(half, 1.0f);
   const auto fingers = static_cast<int>(select(beside, half + g.finger_width_m, palm_top, g.grasp_depth_m));
   if (fingers > scene_.tolerance) return Failure::kFingers;
   const auto blocked = [&](float half_width, float z0, float z1) {
-    return scene_.query.has_more(handle_.position, handle_.rotation, {-half_e, -half_width, z0},
-                                 {half_e, half_width, z1}, scene_.tolerance);
+    const Eigen::Vector3f min(-half_e, -half_width, z0), max(half_e, half_width, z1);
+    const auto blocks = [&](const BoxQuery& query) {
+      return query.has_more(handle_.position, handle_.rotation, min, max, scene_.tolerance);
+    };
+    return blocks(scene_.query) || (scene_.far_sides != nullptr && blocks(scene_.far_sides->query));
   };
   if (blocked(half_hand, hand_top, palm_top)) return Failure::kPalm;
   return blocked(half_hand, hand_top - config_.way_m, hand_top) ? Failure::kWay : Failure::kNone;
@@ -265,11 +274,12 @@ Eigen::Vector3f Check::squared_axis(const Contact& low, const Contact& high, boo
 }
 
 Failure Check::check_contacts() {
-  if (area_per_point() * static_cast<float>(between_.size()) < config_.min_contact_area_m2 ||
-      gripper_.grasp_depth_m - top_ < config_.min_grip_depth_m)
+  if (seen_area() < config_.min_contact_area_m2 || gripper_.grasp_depth_m - top_ < config_.min_grip_depth_m)
     return Failure::kContact;
   buffers_.profile.clear();
-  for (const std::uint32_t k : between_) buffers_.profile.emplace_back(local_.f[k], local_.z[k]);
+  // Where the far side is known, nothing needs to be guessed from the profile.
+  if (between_.size() == static_cast<std::size_t>(num_seen_))
+    for (const std::uint32_t k : between_) buffers_.profile.emplace_back(local_.f[k], local_.z[k]);
   const ContactInput input{scene_,
                            local_,
                            between_,
@@ -297,8 +307,7 @@ Failure Check::check_contacts() {
   set_width_from(low, high);
   margins_.width = (gripper_.aperture_m - handle_.width_m) / (kAmpleRoom * gripper_.aperture_m);
   margins_.thickness = (handle_.width_m - kThin) / (kThick - kThin);
-  margins_.area =
-      (area_per_point() * static_cast<float>(between_.size()) - config_.min_contact_area_m2) / kAmpleArea;
+  margins_.area = (seen_area() - config_.min_contact_area_m2) / kAmpleArea;
   margins_.grip_depth = (gripper_.grasp_depth_m - top_) / gripper_.grasp_depth_m;
   return handle_.width_m > gripper_.aperture_m - 0.002f ? Failure::kTooWide : Failure::kNone;
 }

@@ -231,9 +231,9 @@ Failure fit_patch(const SceneView& scene, const Gripper& gripper, const HandleCh
   const auto look_at = [&](float z) {
     if (!(z <= gathered_m && z >= gathered_m - further)) {
       gathered_m = z;
-      scene.query.find(candidate.position, candidate.rotation,
-                       {-0.5f * g.finger_thickness_m, -reach, z - above - further},
-                       {0.5f * g.finger_thickness_m, reach, z + below}, buffers.local);
+      scene.find(candidate.position, candidate.rotation,
+                 {-0.5f * g.finger_thickness_m, -reach, z - above - further},
+                 {0.5f * g.finger_thickness_m, reach, z + below}, buffers.local);
       describe_points(tags, buffers);
     }
     return z - above;

@@ -10,30 +10,46 @@
 
 #include "service/pipeline/box_query.hpp"
 #include "service/pipeline/depth_map.hpp"
+#include "service/pipeline/far_sides.hpp"
 #include "service/pipeline/normals.hpp"
 #include "service/pipeline/objects.hpp"
 #include "service/pipeline/support.hpp"
 
 namespace graspd {
 
-/// The cloud at one resolution. References must outlive the view.
+/// The cloud at one resolution. References must outlive the view. Points of far sides are numbered after the
+/// cloud's.
 struct SceneView {
   const PointCloud& cloud;
   const BoxQuery& query;
   const std::pmr::vector<std::int32_t>& object_of_voxel;  ///< kSupportObject, or -1
   const Normals& normals;                                 ///< of the voxels
-  const std::pmr::vector<std::uint32_t>& voxel;           ///< of each point
+  /// Of each point; of those of far sides, one of the same object.
+  const std::pmr::vector<std::uint32_t>& voxel;
   const std::optional<Support>& support;
   const DepthMap& depth_map;
   const std::pmr::vector<std::uint32_t>& depth_map_voxel;  ///< of each point that the depth map was made of
   int tolerance = 0;    ///< stray points allowed in a volume that must be free
   int min_points = 0;   ///< of the object between the jaws
   float spacing_m = 0;  ///< of a sparse copy, which is even; 0 for the points as they were measured
+  const FarSides* far_sides = nullptr;  ///< null: none are known
 
   [[nodiscard]] bool is_sparse() const { return spacing_m > 0; }
-  [[nodiscard]] Eigen::Vector3f normal(std::uint32_t point) const { return normals.at(voxel[point]); }
+  /// Whether a point was measured: else it is of a far side.
+  [[nodiscard]] bool is_seen(std::uint32_t point) const { return point < cloud.size(); }
+  [[nodiscard]] Eigen::Vector3f normal(std::uint32_t point) const {
+    return is_seen(point) ? normals.at(voxel[point]) : far_sides->normals.at(point - cloud.size());
+  }
   [[nodiscard]] std::int32_t object_at(std::int32_t depth_map_point) const {
     return object_of_voxel[depth_map_voxel[static_cast<std::size_t>(depth_map_point)]];
+  }
+  /// The points of the cloud and of far sides in a box, as BoxQuery finds them.
+  void find(const Eigen::Vector3f& origin, const Eigen::Matrix3f& rotation, const Eigen::Vector3f& min,
+            const Eigen::Vector3f& max, LocalPoints& out) const {
+    query.find(origin, rotation, min, max, out);
+    if (far_sides != nullptr &&
+        far_sides->may_be_near(origin + rotation * (0.5f * (min + max)), 0.5f * (max - min).norm()))
+      far_sides->query.find_more(origin, rotation, min, max, static_cast<std::uint32_t>(cloud.size()), out);
   }
 };
 

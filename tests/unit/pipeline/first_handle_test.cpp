@@ -24,7 +24,8 @@ class Search {
       : kept_(filter_workspace(cloud, {})),
         index_(kept_.cloud, kept_.pixels),
         surfaces_(find_surfaces(kept_.cloud, {}, [](std::string_view) {})),
-        search_({kept_.cloud, index_, surfaces_}, surfaces_.objects, gripper_, config_) {
+        far_sides_(find_far_sides(surfaces_, index_.depth_map)),
+        search_({kept_.cloud, index_, surfaces_, far_sides_}, surfaces_.objects, gripper_, config_) {
     result_.segments.resize(surfaces_.segments.list.size());
     search_.run(std::pmr::vector<std::uint8_t>(surfaces_.segments.list.size(), 1), buffers_, result_);
     first_ = first_handles(result_.handles, surfaces_, gripper_, config_.check, buffers_);
@@ -49,6 +50,7 @@ class Search {
   WorkspaceResult kept_;
   PointIndex index_;
   Surfaces surfaces_;
+  FarSides far_sides_;
   GuessSearch search_;
   CheckBuffersOfThreads buffers_;
   SearchResult result_;

@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/pipeline/far_sides.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "service/pipeline/round_body.hpp"
+#include "service/pipeline/surfaces.hpp"
+
+namespace graspd {
+namespace {
+
+constexpr float kSpacing = 0.004f;  // between points around the axis [m]
+constexpr float kBehind = 0.008f;   // that a hidden place is behind what is seen, or a free one before it [m]
+constexpr float kMostFreeShare = 0.15f;
+constexpr float kCell = 0.015f;  // of the grid for box queries [m]
+
+struct Wall {
+  std::pmr::vector<Eigen::Vector3f> points, normals;
+};
+
+/// What of the body's wall faces away from the sensor or is behind others; nothing where too much of it is
+/// seen through.
+Wall hidden_wall(const RoundBody& body, const DepthMap& depth_map, const Eigen::Vector3f& viewpoint) {
+  Wall wall, hidden;
+  const Eigen::Vector3f x = body.axis.unitOrthogonal(), y = body.axis.cross(x);
+  for (const RoundSlice& slice : body.slices) {
+    const float around = 2 * std::numbers::pi_v<float> * slice.radius_m;
+    const int n = std::max(8, static_cast<int>(around / kSpacing));
+    const float upright = std::sqrt(std::max(0.0f, 1 - slice.lean * slice.lean));
+    for (int k = 0; k < n; ++k) {
+      const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(k) / static_cast<float>(n);
+      const Eigen::Vector3f out = std::cos(angle) * x + std::sin(angle) * y;
+      wall.points.emplace_back(body.center + slice.along_m * body.axis + slice.radius_m * out);
+      wall.normals.emplace_back(upright * out + slice.lean * body.axis);
+    }
+  }
+  std::size_t free = 0;
+  for (std::size_t from = 0; from < wall.points.size(); from += kProbes) {
+    Probes places;
+    for (std::size_t k = 0; k < kProbes; ++k) {
+      const Eigen::Vector3f& p = wall.points[std::min(from + k, wall.points.size() - 1)];
+      places.x[k] = p.x();
+      places.y[k] = p.y();
+      places.z[k] = p.z();
+    }
+    std::int32_t behind[kProbes], near[kProbes];
+    depth_map.find_hiders(places, kBehind, behind);
+    depth_map.find_hiders(places, -kBehind, near);
+    for (std::size_t k = 0; k < std::min(kProbes, wall.points.size() - from); ++k) {
+      free += near[k] == DepthMap::kFree ? 1 : 0;
+      const Eigen::Vector3f sight = wall.points[from + k] - viewpoint;
+      if (behind[k] == DepthMap::kFree && wall.normals[from + k].dot(sight) <= 0) continue;
+      hidden.points.push_back(wall.points[from + k]);
+      hidden.normals.push_back(wall.normals[from + k]);
+    }
+  }
+  const float share =
+      static_cast<float>(free) / static_cast<float>(std::max<std::size_t>(1, wall.points.size()));
+  return share > kMostFreeShare ? Wall{} : hidden;
+}
+
+BoundingBall bound(const std::pmr::vector<Eigen::Vector3f>& points) {
+  Eigen::AlignedBox3f box;
+  for (const Eigen::Vector3f& p : points) box.extend(p);
+  return {box.center(), 0.5f * box.diagonal().norm()};
+}
+
+}  // namespace
+
+bool FarSides::may_be_near(const Eigen::Vector3f& p, float distance_m) const {
+  return std::any_of(bounds.begin(), bounds.end(), [&](const BoundingBall& b) {
+    const float reach = b.radius + distance_m;
+    return (b.center - p).squaredNorm() <= reach * reach;
+  });
+}
+
+FarSides find_far_sides(const Surfaces& surfaces, const DepthMap& depth_map) {
+  const Objects& objects = surfaces.objects;
+  std::pmr::vector<std::pmr::vector<std::uint32_t>> points(static_cast<std::size_t>(objects.num_objects));
+  for (std::size_t s = 0; s < objects.of_segment.size(); ++s) {
+    auto& own = points[static_cast<std::size_t>(objects.of_segment[s])];
+    const std::pmr::vector<std::uint32_t>& more = surfaces.segments.list[s].points;
+    own.insert(own.end(), more.begin(), more.end());
+  }
+  std::optional<Eigen::Vector3f> up;
+  if (surfaces.support) up = surfaces.support->plane.normal;
+  std::pmr::vector<Wall> walls(static_cast<std::size_t>(objects.num_objects));
+  tbb::parallel_for(std::size_t{0}, walls.size(), [&](std::size_t k) {
+    if (const auto body = fit_round_body(surfaces.cloud, surfaces.normals, points[k], up))
+      walls[k] = hidden_wall(*body, depth_map, surfaces.cloud.viewpoint);
+  });
+  FarSides sides;
+  sides.voxel_of_point = surfaces.voxel_of_point;
+  sides.voxel_of_sparse = surfaces.sparse.voxel;
+  for (std::size_t s = objects.of_segment.size(); s-- > 0;) {
+    Wall& wall = walls[static_cast<std::size_t>(objects.of_segment[s])];
+    if (wall.points.empty()) continue;
+    sides.bounds.push_back(bound(wall.points));
+    for (std::size_t i = 0; i < wall.points.size(); ++i) {
+      sides.cloud.push_back(wall.points[i]);
+      sides.normals.x.push_back(wall.normals[i].x());
+      sides.normals.y.push_back(wall.normals[i].y());
+      sides.normals.z.push_back(wall.normals[i].z());
+      sides.voxel_of_point.push_back(surfaces.segments.list[s].points.front());
+      sides.voxel_of_sparse.push_back(surfaces.segments.list[s].points.front());
+    }
+    wall = {};
+  }
+  sides.query = BoxQuery(sides.cloud, kCell);
+  return sides;
+}
+
+}  // namespace graspd
