@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <tuple>
 
 #include "service/pipeline/careful_check.hpp"
 
@@ -56,14 +57,42 @@ FoundHandle scored(const CheckResult& result, const Guess& guess, int object, co
 struct Promising {
   Candidate candidate;
   float score;
-  std::size_t rank = 0;  ///< among those of its object by score, from 0
+  Eigen::Vector3f position;  ///< that it was fitted to
+  std::size_t rank = 0;      ///< among those of its object, from 0
 };
 
+/// Which of the candidates around one place each is, the best one 0. order: the best ones first.
+std::pmr::vector<std::size_t> turns_at_places(const std::pmr::vector<Promising>& all,
+                                              const std::pmr::vector<std::size_t>& order) {
+  constexpr float kSamePlace = 0.03f;  // from its best candidate [m]
+  struct Place {
+    Eigen::Vector3f position;
+    std::size_t num = 0;
+  };
+  std::pmr::map<std::int32_t, std::pmr::vector<Place>> places_of_object;
+  std::pmr::vector<std::size_t> turns(all.size());
+  for (const std::size_t i : order) {
+    std::pmr::vector<Place>& places = places_of_object[all[i].candidate.object];
+    auto here = std::find_if(places.begin(), places.end(), [&](const Place& place) {
+      return (place.position - all[i].position).squaredNorm() < kSamePlace * kSamePlace;
+    });
+    if (here == places.end()) here = places.insert(here, {all[i].position});
+    turns[i] = here->num++;
+  }
+  return turns;
+}
+
+/// The best candidates of all places of an object first, then the second ones: what is taken for one object
+/// may be two, and one that is easy to take must not keep the other from its turn.
 void set_ranks(std::pmr::vector<Promising>& all) {
   std::pmr::vector<std::size_t> order(all.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return all[a].score != all[b].score ? all[a].score > all[b].score : a < b;
+  });
+  const std::pmr::vector<std::size_t> turns = turns_at_places(all, order);
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::tuple(turns[a], -all[a].score, a) < std::tuple(turns[b], -all[b].score, b);
   });
   std::pmr::map<std::int32_t, std::size_t> seen;
   for (const std::size_t i : order) all[i].rank = seen[all[i].candidate.object]++;
@@ -76,7 +105,7 @@ std::pmr::vector<Promising> promising_ones(const std::pmr::vector<Candidate>& ca
   passed.reserve(candidates.size());
   for (std::size_t i = 0; i < candidates.size(); ++i)
     if (coarse[i].failure == Failure::kNone)
-      passed.push_back({candidates[i], score(coarse[i].margins)});
+      passed.push_back({candidates[i], score(coarse[i].margins), coarse[i].handle.position});
     else
       out.count(candidates[i].segment, coarse[i].failure);
   set_ranks(passed);

@@ -61,6 +61,17 @@ PointCloud long_box() {
   return render(on_table({standing_box(0, 0, {0.20, 0.05, 0.06})})).cloud;
 }
 
+TEST(GuessSearch, PlacesFarApartHaveTheirTurns) {
+  const Search search(long_box());
+  constexpr float kLength = 0.20f;
+  float low = kLength, high = -kLength;
+  for (const FoundHandle& found : search.found()) {
+    low = std::min(low, found.ranked.handle.position.x());
+    high = std::max(high, found.ranked.handle.position.x());
+  }
+  EXPECT_GT(high - low, 0.5f * kLength);
+}
+
 TEST(FirstHandle, NothingFoundNothingFirst) {
   CheckBuffersOfThreads buffers;
   EXPECT_TRUE(first_handles({}, {}, {}, {}, buffers).empty());
