@@ -104,6 +104,12 @@ void find_hiders(const ViewImage& image, const Probes& places, float margin_m,
 void tag_band(const BandTags& tags, const BandPoints& points, std::int32_t* own, std::int32_t* marks);
 std::size_t keep_depths(const BandPoints& points, const std::int32_t* own, const BandPart& part, float* out);
 std::size_t select_band(const BandLimits& limits, const BandPoints& points, std::uint32_t* out);
+BandCounts select_own(const BandLimits& limits, const BandPoints& points, const std::int32_t* own,
+                      std::uint32_t* out);
+void extend_own(const BandLimits& limits, const BandPoints& points, const std::int32_t* own, float& low,
+                float& high);
+void mark_band(const BandLimits& limits, const BandPoints& points, const std::int32_t* marks,
+               std::uint8_t* marked);
 
 }  // namespace graspd::avx2
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a check does with the points that it gathered, eight at a time. Products and sums stay separate
 // operations, as in point_kernels_avx2.cpp.
+#include <algorithm>
+
 #include "service/pipeline/avx2_lanes.hpp"
 
 #if defined(__x86_64__)
@@ -40,6 +42,44 @@ GRASPD_AVX2 inline __m256 on_image(float focal, float center, __m256 x, __m256 d
 GRASPD_AVX2 inline __m256 in_side(__m256 v, std::int32_t side) {
   return _mm256_and_ps(_mm256_cmp_ps(v, _mm256_setzero_ps(), _CMP_GE_OQ),
                        _mm256_cmp_ps(v, _mm256_set1_ps(static_cast<float>(side)), _CMP_LT_OQ));
+}
+
+/// Which points of a band are within limits.
+struct Band {
+  __m256 middle, top, min_distance, max_distance, min_depth, max_depth;
+
+  GRASPD_AVX2 explicit Band(const BandLimits& limits)
+      : middle(_mm256_set1_ps(limits.middle)),
+        top(_mm256_set1_ps(limits.top)),
+        min_distance(_mm256_set1_ps(limits.min_distance)),
+        max_distance(_mm256_set1_ps(limits.max_distance)),
+        min_depth(_mm256_set1_ps(limits.min_depth)),
+        max_depth(_mm256_set1_ps(limits.max_depth)) {}
+
+  /// Of the eight points from k on.
+  GRASPD_AVX2 __m256 within(const BandPoints& points, std::size_t k) const {
+    const __m256 distance =
+        _mm256_andnot_ps(_mm256_set1_ps(-0.0f), _mm256_sub_ps(_mm256_loadu_ps(points.f + k), middle));
+    const __m256 depth = _mm256_sub_ps(_mm256_loadu_ps(points.z + k), top);
+    return _mm256_and_ps(_mm256_and_ps(_mm256_cmp_ps(distance, min_distance, _CMP_GE_OQ),
+                                       _mm256_cmp_ps(distance, max_distance, _CMP_LE_OQ)),
+                         _mm256_and_ps(_mm256_cmp_ps(depth, min_depth, _CMP_GE_OQ),
+                                       _mm256_cmp_ps(depth, max_depth, _CMP_LE_OQ)));
+  }
+};
+
+/// Writes k and what is set in the mask of the lanes from it on; the number written so far.
+GRASPD_AVX2 inline std::size_t write_positions(unsigned mask, std::size_t k, std::uint32_t* out,
+                                               std::size_t n) {
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(out + n),
+                      _mm256_add_epi32(lanes_of(mask), _mm256_set1_epi32(static_cast<int>(k))));
+  return n + static_cast<std::size_t>(std::popcount(mask));
+}
+
+/// Of eight points those of the object.
+GRASPD_AVX2 inline unsigned own_lanes(const std::int32_t* own) {
+  const __m256i is_own = _mm256_cmpgt_epi32(load(own), _mm256_setzero_si256());
+  return static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(is_own)));
 }
 
 }  // namespace
@@ -177,26 +217,54 @@ GRASPD_AVX2 std::size_t keep_depths(const BandPoints& points, const std::int32_t
 }
 
 GRASPD_AVX2 std::size_t select_band(const BandLimits& limits, const BandPoints& points, std::uint32_t* out) {
-  const __m256 middle = _mm256_set1_ps(limits.middle), top = _mm256_set1_ps(limits.top),
-               min_distance = _mm256_set1_ps(limits.min_distance),
-               max_distance = _mm256_set1_ps(limits.max_distance),
-               min_depth = _mm256_set1_ps(limits.min_depth), max_depth = _mm256_set1_ps(limits.max_depth);
-  const __m256 sign = _mm256_set1_ps(-0.0f);
+  const Band band(limits);
   std::size_t n = 0;
   for (std::size_t k = 0; k < points.size; k += 8) {
-    const __m256 distance = _mm256_andnot_ps(sign, _mm256_sub_ps(_mm256_loadu_ps(points.f + k), middle));
-    const __m256 depth = _mm256_sub_ps(_mm256_loadu_ps(points.z + k), top);
-    const __m256 near = _mm256_and_ps(_mm256_cmp_ps(distance, min_distance, _CMP_GE_OQ),
-                                      _mm256_cmp_ps(distance, max_distance, _CMP_LE_OQ));
-    const __m256 within = _mm256_and_ps(_mm256_cmp_ps(depth, min_depth, _CMP_GE_OQ),
-                                        _mm256_cmp_ps(depth, max_depth, _CMP_LE_OQ));
-    const unsigned mask = valid_lanes(_mm256_movemask_ps(_mm256_and_ps(near, within)), k, points.size);
-    if (mask == 0) continue;
-    _mm256_storeu_si256(reinterpret_cast<__m256i*>(out + n),
-                        _mm256_add_epi32(lanes_of(mask), _mm256_set1_epi32(static_cast<int>(k))));
-    n += static_cast<std::size_t>(std::popcount(mask));
+    const unsigned mask = valid_lanes(_mm256_movemask_ps(band.within(points, k)), k, points.size);
+    if (mask != 0) n = write_positions(mask, k, out, n);
   }
   return n;
+}
+
+GRASPD_AVX2 BandCounts select_own(const BandLimits& limits, const BandPoints& points, const std::int32_t* own,
+                                  std::uint32_t* out) {
+  const Band band(limits);
+  BandCounts n{0, 0};
+  for (std::size_t k = 0; k < points.size; k += 8) {
+    const unsigned mask = valid_lanes(_mm256_movemask_ps(band.within(points, k)), k, points.size);
+    if (mask == 0) continue;
+    n.all += static_cast<std::size_t>(std::popcount(mask));
+    n.own = write_positions(mask & own_lanes(own + k), k, out, n.own);
+  }
+  return n;
+}
+
+GRASPD_AVX2 void extend_own(const BandLimits& limits, const BandPoints& points, const std::int32_t* own,
+                            float& low, float& high) {
+  const Band band(limits);
+  __m256 lows = _mm256_set1_ps(low), highs = _mm256_set1_ps(high);
+  for (std::size_t k = 0; k < points.size; k += 8) {
+    const __m256 is_own = _mm256_castsi256_ps(_mm256_cmpgt_epi32(load(own + k), _mm256_setzero_si256()));
+    const __m256 chosen =
+        _mm256_and_ps(_mm256_and_ps(band.within(points, k), is_own), lanes_left(points.size - k));
+    const __m256 f = _mm256_loadu_ps(points.f + k);
+    lows = _mm256_min_ps(lows, _mm256_blendv_ps(lows, f, chosen));
+    highs = _mm256_max_ps(highs, _mm256_blendv_ps(highs, f, chosen));
+  }
+  alignas(32) float lanes[8];
+  _mm256_store_ps(lanes, lows);
+  low = *std::min_element(lanes, lanes + 8);
+  _mm256_store_ps(lanes, highs);
+  high = *std::max_element(lanes, lanes + 8);
+}
+
+GRASPD_AVX2 void mark_band(const BandLimits& limits, const BandPoints& points, const std::int32_t* marks,
+                           std::uint8_t* marked) {
+  const Band band(limits);
+  for (std::size_t k = 0; k < points.size; k += 8) {
+    unsigned mask = valid_lanes(_mm256_movemask_ps(band.within(points, k)), k, points.size);
+    for (; mask != 0; mask &= mask - 1) marked[marks[k + static_cast<unsigned>(std::countr_zero(mask))]] = 1;
+  }
 }
 
 }  // namespace graspd::avx2

@@ -16,9 +16,9 @@ namespace graspd {
 namespace {
 
 constexpr std::size_t kMinPoints = 12;
-constexpr std::size_t kMostPoints = 160;  // a spread sample says the same
-constexpr float kScale = 0.002f;          // of the weights [m]
-constexpr float kNear = 0.0035f;          // a point that belongs to the circle [m]
+constexpr std::size_t kMostPoints = 160;
+constexpr float kScale = 0.002f;  // of the weights [m]
+constexpr float kNear = 0.0035f;  // a point that belongs to the circle [m]
 constexpr float kMinNearShare = 0.85f;
 constexpr int kSectors = 36;
 constexpr int kMinSectors = 6;
@@ -50,17 +50,22 @@ class Sample {
 
   /// Whether most points belong to the circle, and to more than a small part of it.
   [[nodiscard]] bool is_described_by(const Circle& circle) const {
-    std::size_t near = 0;
-    std::uint64_t sectors = 0;
+    std::array<std::uint8_t, kMostPoints> is_near;
+    std::size_t num_near = 0;
     for (std::size_t k = 0; k < size_; ++k) {
-      const Eigen::Vector2f d = Eigen::Vector2f(x_[k], y_[k]) - circle.center;
-      if (std::abs(d.norm() - circle.radius) > kNear) continue;
-      ++near;
-      const float turn = std::atan2(d.y(), d.x()) / (2 * std::numbers::pi_v<float>)+0.5f;
-      sectors |= std::uint64_t{1} << std::min(kSectors - 1, static_cast<int>(turn * kSectors));
+      const float x = x_[k] - circle.center.x(), y = y_[k] - circle.center.y();
+      is_near[k] = std::abs(std::sqrt(x * x + y * y) - circle.radius) <= kNear ? 1 : 0;
+      num_near += is_near[k];
     }
-    return static_cast<float>(near) >= kMinNearShare * static_cast<float>(size_) &&
-           std::popcount(sectors) >= kMinSectors;
+    if (static_cast<float>(num_near) < kMinNearShare * static_cast<float>(size_)) return false;
+    std::uint64_t sectors = 0;
+    for (std::size_t k = 0; k < size_ && std::popcount(sectors) < kMinSectors; ++k) {
+      if (is_near[k] == 0) continue;
+      const float turn = std::atan2(y_[k] - circle.center.y(), x_[k] - circle.center.x());
+      const float part = turn / (2 * std::numbers::pi_v<float>)+0.5f;
+      sectors |= std::uint64_t{1} << std::min(kSectors - 1, static_cast<int>(part * kSectors));
+    }
+    return std::popcount(sectors) >= kMinSectors;
   }
 
   [[nodiscard]] const Eigen::Vector2f& mean() const { return mean_; }
@@ -75,7 +80,7 @@ class Sample {
 
 std::optional<Circle> fit_circle(std::span<const Eigen::Vector2f> points, float max_radius_m) {
   if (points.size() < kMinPoints) return std::nullopt;
-  const Sample sample(points, (points.size() + kMostPoints - 1) / kMostPoints);
+  const Sample sample(points, circle_step(points.size()));
   Circle circle;
   for (int round = 0; round < 4; ++round) {
     circle = sample.fit({circle.center.x(), circle.center.y(), circle.radius, round == 0 ? 0 : 1 / kScale});

@@ -13,6 +13,12 @@ struct Circle {
   float radius = 0;                                  ///< [m]
 };
 
+/// One of how many points is enough: a spread sample says the same.
+[[nodiscard]] constexpr std::size_t circle_step(std::size_t num_points) {
+  constexpr std::size_t kEnough = 160;
+  return (num_points + kEnough - 1) / kEnough;
+}
+
 /// Least squares in the algebraic distance (Kasa), reweighted by Cauchy weights with a scale of 2 mm. Nothing
 /// where fewer than 12 points are given, where the circle does not pass within 3.5 mm of 85 % of them, or
 /// where these see less than a sixth of it: then the points do not tell a circle from something else.

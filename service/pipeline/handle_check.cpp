@@ -44,7 +44,6 @@ class Check {
   [[nodiscard]] float half_opening() const {
     return 0.5f * std::min(gripper_.aperture_m, handle_.width_m + 2 * config_.clearance_m);
   }
-  [[nodiscard]] bool is_own(std::size_t k) const { return buffers_.own[k] != 0; }
   [[nodiscard]] Failure check_volumes();
   [[nodiscard]] Failure check_support() const;
   [[nodiscard]] Failure check_silhouettes();
@@ -54,8 +53,6 @@ class Check {
   /// Writes to buffers_.selected which points are at these distances from the middle and depths; their
   /// number.
   [[nodiscard]] std::size_t select(float min_distance, float max_distance, float min_depth, float max_depth);
-  /// Of n selected points those of the object are between the jaws.
-  void keep_own(std::size_t n);
   /// Where what is between the jaws ends.
   void find_ends();
   [[nodiscard]] float hidden_share(float f0, float f1, float z0, float z1, bool by_others) const;
@@ -87,30 +84,23 @@ std::size_t Check::select(float min_distance, float max_distance, float min_dept
                                      buffers_.selected.data());
 }
 
-void Check::keep_own(std::size_t n) {
-  between_.resize(n);
-  std::size_t own = 0;
-  num_seen_ = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::uint32_t k = buffers_.selected[i];
-    between_[own] = k;
-    own += static_cast<std::size_t>(buffers_.own[k]);
-    num_seen_ += buffers_.own[k] != 0 && scene_.is_seen(local_.index[k]) ? 1 : 0;
-  }
-  between_.resize(own);
-}
-
 Failure Check::check_volumes() {
   const Gripper& g = gripper_;
   const float half = half_opening(), half_hand = 0.5f * g.aperture_m + g.finger_width_m,
               half_e = 0.5f * g.finger_thickness_m;
   const float palm_top = g.grasp_depth_m - g.finger_length_m, hand_top = palm_top - config_.palm_depth_m;
-  const std::size_t all = select(0, half, palm_top, g.grasp_depth_m);
-  keep_own(all);
-  const auto own = static_cast<int>(between_.size());
+  between_.resize(local_.size() + kPointPadding);
+  const BandCounts counts = point_kernels().select_own({0, 0, 0, half, palm_top, g.grasp_depth_m},
+                                                       local_.band(), buffers_.own.data(), between_.data());
+  between_.resize(counts.own);
+  // Those of far sides come last.
+  const auto is_far = [&](std::uint32_t k) { return !scene_.is_seen(local_.index[k]); };
+  num_seen_ = static_cast<int>(counts.own);
+  while (num_seen_ > 0 && is_far(between_[static_cast<std::size_t>(num_seen_) - 1])) --num_seen_;
   handle_.num_points = num_seen_;
   if (num_seen_ < scene_.min_points) return Failure::kTooFewPoints;
-  if (static_cast<float>(own) < config_.min_own_share * static_cast<float>(all)) return Failure::kNoGap;
+  if (static_cast<float>(counts.own) < config_.min_own_share * static_cast<float>(counts.all))
+    return Failure::kNoGap;
   const float beside = std::nextafter(half, 1.0f);
   const auto fingers = static_cast<int>(select(beside, half + g.finger_width_m, palm_top, g.grasp_depth_m));
   if (fingers > scene_.tolerance) return Failure::kFingers;
@@ -196,17 +186,12 @@ Failure Check::check_walls() {
   constexpr float kAbove = 0.010f, kBelow = 0.005f, kBeside = 0.03f;
   const float half = half_opening(), l = gripper_.grasp_depth_m;
   float near_low = 1, near_high = -1, far_low = 1, far_high = -1;
-  const std::size_t n = select(0, half + kBeside, l - gripper_.finger_length_m, l + kBelow);
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::uint32_t k = buffers_.selected[i];
-    if (!is_own(k)) continue;
-    const float f = local_.f[k], z = local_.z[k];
-    far_low = std::min(far_low, f);
-    far_high = std::max(far_high, f);
-    if (z > l - kAbove) continue;
-    near_low = std::min(near_low, f);
-    near_high = std::max(near_high, f);
-  }
+  const auto extend = [&](float max_depth, float& low, float& high) {
+    point_kernels().extend_own({0, 0, 0, half + kBeside, l - gripper_.finger_length_m, max_depth},
+                               local_.band(), buffers_.own.data(), low, high);
+  };
+  extend(l + kBelow, far_low, far_high);
+  extend(l - kAbove, near_low, near_high);
   if (near_high <= near_low) return Failure::kWalls;
   const float limit = (kAbove + kBelow) * std::tan(radians(config_.max_wall_angle_deg));
   const float widening = std::max(far_high - near_high, near_low - far_low);
@@ -278,8 +263,11 @@ Failure Check::check_contacts() {
     return Failure::kContact;
   buffers_.profile.clear();
   // Where the far side is known, nothing needs to be guessed from the profile.
-  if (between_.size() == static_cast<std::size_t>(num_seen_))
-    for (const std::uint32_t k : between_) buffers_.profile.emplace_back(local_.f[k], local_.z[k]);
+  if (between_.size() == static_cast<std::size_t>(num_seen_)) {
+    const std::size_t step = circle_step(between_.size());
+    for (std::size_t i = 0; i < between_.size(); i += step)
+      buffers_.profile.emplace_back(local_.f[between_[i]], local_.z[between_[i]]);
+  }
   const ContactInput input{scene_,
                            local_,
                            between_,

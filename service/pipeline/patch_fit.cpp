@@ -25,19 +25,19 @@ struct Profile {
   BinSet own, any;  // bins with points of the object, and of anything
   BinSet others;
 
-  /// n selected points leave their marks.
-  Profile(const BandTags& tags, std::size_t n, CheckBuffers& buffers)
-      : own(mark(tags, n, buffers).subspan(tags.stride(), tags.stride())),
+  /// The points within the limits leave their marks.
+  Profile(const BandTags& tags, const BandLimits& limits, CheckBuffers& buffers)
+      : own(mark(tags, limits, buffers).subspan(tags.stride(), tags.stride())),
         any(own),
         others(std::span(buffers.marked).first(tags.stride())) {
     any = own | others;
   }
 
  private:
-  static std::span<const std::uint8_t> mark(const BandTags& tags, std::size_t n, CheckBuffers& buffers) {
+  static std::span<const std::uint8_t> mark(const BandTags& tags, const BandLimits& limits,
+                                            CheckBuffers& buffers) {
     buffers.marked.assign(static_cast<std::size_t>(tags.no_mark()) + 1, 0);
-    for (std::size_t i = 0; i < n; ++i)
-      buffers.marked[static_cast<std::size_t>(buffers.marks[buffers.selected[i]])] = 1;
+    point_kernels().mark_band(limits, buffers.local.band(), buffers.marks.data(), buffers.marked.data());
     return buffers.marked;
   }
 };
@@ -110,17 +110,11 @@ Stretch between_gaps(const BinSet& bins, int start, int min_gap) {
   return {gap_below < 0 ? bins.next(0) : gap_below + min_gap, bins.previous(gaps.next(start) - 1)};
 }
 
-/// Whether too few of the first n selected points from f_min to f_max are the object's.
-bool is_shared(const HandleCheckConfig& config, const CheckBuffers& buffers, std::size_t n, float f_min,
-               float f_max) {
-  int all = 0, own = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::uint32_t k = buffers.selected[i];
-    const bool is_between = buffers.local.f[k] >= f_min && buffers.local.f[k] <= f_max;
-    all += is_between ? 1 : 0;
-    own += is_between ? buffers.own[k] : 0;
-  }
-  return static_cast<float>(own) < config.min_own_share * static_cast<float>(all);
+/// Whether too few of the points within the limits are the object's.
+bool is_shared(const HandleCheckConfig& config, CheckBuffers& buffers, const BandLimits& limits) {
+  const BandCounts n =
+      point_kernels().select_own(limits, buffers.local.band(), buffers.own.data(), buffers.selected.data());
+  return static_cast<float>(n.own) < config.min_own_share * static_cast<float>(n.all);
 }
 
 /// For a patch at depths down to depth_m below its top.
@@ -138,10 +132,8 @@ Failure find_patch(const PatchSearch& search, CheckBuffers& buffers, float f0, P
   const Gripper& g = search.g;
   constexpr float kAnywhere = std::numeric_limits<float>::infinity();
   constexpr int kStray = 3;  // bins
-  const std::size_t n = point_kernels().select_band(
-      {0, fit.top_m, 0, kAnywhere, g.grasp_depth_m - g.finger_length_m, search.depth_m}, buffers.local.band(),
-      buffers.selected.data());
-  const Profile profile(tags, n, buffers);
+  BandLimits limits{0, fit.top_m, 0, kAnywhere, g.grasp_depth_m - g.finger_length_m, search.depth_m};
+  const Profile profile(tags, limits, buffers);
   const int start = nearest(profile.own, cell_index((f0 - tags.first) / kBin, 1),
                             static_cast<int>(0.5f * g.aperture_m / kBin));
   if (start < 0) return Failure::kTooFewPoints;
@@ -159,9 +151,9 @@ Failure find_patch(const PatchSearch& search, CheckBuffers& buffers, float f0, P
   const bool is_wide = fit.width_m > g.aperture_m + 0.004f;
   if (profile.others.count(patch.low, patch.high) <= kStray)
     return is_wide ? Failure::kTooWide : Failure::kNone;
-  const float half = 0.5f * fit.width_m;
-  if (!is_wide && !is_shared(search.config, buffers, n, fit.center_m - half, fit.center_m + half))
-    return Failure::kNone;
+  limits.middle = fit.center_m;
+  limits.max_distance = 0.5f * fit.width_m;
+  if (!is_wide && !is_shared(search.config, buffers, limits)) return Failure::kNone;
   take(between_gaps(profile.own, start, min_gap));
   return Failure::kNoGap;
 }

@@ -234,16 +234,47 @@ std::size_t keep_depths(const BandPoints& points, const std::int32_t* own, const
   return n;
 }
 
+/// 1 where point k is within the limits.
+int is_within(const BandLimits& limits, const BandPoints& points, std::size_t k) {
+  const float distance = std::abs(points.f[k] - limits.middle), depth = points.z[k] - limits.top;
+  return int{distance >= limits.min_distance} & int{distance <= limits.max_distance} &
+         int{depth >= limits.min_depth} & int{depth <= limits.max_depth};
+}
+
 std::size_t select_band(const BandLimits& limits, const BandPoints& points, std::uint32_t* out) {
   std::size_t n = 0;
   for (std::size_t k = 0; k < points.size; ++k) {
-    const float distance = std::abs(points.f[k] - limits.middle), depth = points.z[k] - limits.top;
     out[n] = static_cast<std::uint32_t>(k);
-    n +=
-        static_cast<std::size_t>(int{distance >= limits.min_distance} & int{distance <= limits.max_distance} &
-                                 int{depth >= limits.min_depth} & int{depth <= limits.max_depth});
+    n += static_cast<std::size_t>(is_within(limits, points, k));
   }
   return n;
+}
+
+BandCounts select_own(const BandLimits& limits, const BandPoints& points, const std::int32_t* own,
+                      std::uint32_t* out) {
+  BandCounts n{0, 0};
+  for (std::size_t k = 0; k < points.size; ++k) {
+    const int within = is_within(limits, points, k);
+    out[n.own] = static_cast<std::uint32_t>(k);
+    n.all += static_cast<std::size_t>(within);
+    n.own += static_cast<std::size_t>(within & own[k]);
+  }
+  return n;
+}
+
+void extend_own(const BandLimits& limits, const BandPoints& points, const std::int32_t* own, float& low,
+                float& high) {
+  for (std::size_t k = 0; k < points.size; ++k) {
+    if ((is_within(limits, points, k) & own[k]) == 0) continue;
+    low = std::min(low, points.f[k]);
+    high = std::max(high, points.f[k]);
+  }
+}
+
+void mark_band(const BandLimits& limits, const BandPoints& points, const std::int32_t* marks,
+               std::uint8_t* marked) {
+  for (std::size_t k = 0; k < points.size; ++k)
+    if (is_within(limits, points, k) != 0) marked[marks[k]] = 1;
 }
 
 }  // namespace
@@ -251,10 +282,10 @@ std::size_t select_band(const BandLimits& limits, const BandPoints& points, std:
 const PointKernels& portable_kernels() {
   using namespace portable;
   static constexpr PointKernels kKernels{
-      test_workspace, copy_chosen,  keep_inside,   count_inside, meet_rows,   keep_near,
-      copy_inside,    sum_moments,  solve_planes,  score_plane,  count_bent,  find_links,
-      any_other,      list_members, list_unmarked, sum_circle,   sum_profile, find_hiders,
-      extend_bounds,  number_cells, tag_band,      keep_depths,  select_band};
+      test_workspace, copy_chosen,  keep_inside, count_inside, meet_rows,     keep_near,    copy_inside,
+      sum_moments,    solve_planes, score_plane, count_bent,   find_links,    any_other,    list_members,
+      list_unmarked,  sum_circle,   sum_profile, find_hiders,  extend_bounds, number_cells, tag_band,
+      keep_depths,    select_band,  select_own,  extend_own,   mark_band};
   return kKernels;
 }
 

@@ -92,6 +92,11 @@ struct BandLimits {
   float min_depth, max_depth;        ///< of z - top
 };
 
+/// Points within limits: all, and those of the object.
+struct BandCounts {
+  std::size_t all, own;
+};
+
 /// A point and the indices of its neighbours. As many as kPointPadding more must be readable and be those of
 /// points.
 struct NeighborList {
@@ -281,6 +286,15 @@ struct PointKernels {
   /// Writes the positions among the points of those within the limits, ascending; returns their number. There
   /// must be room for size + kPointPadding, and as many points to read.
   std::size_t (*select_band)(const BandLimits& limits, const BandPoints& points, std::uint32_t* out);
+  /// The same of the own points; room and reading as there.
+  BandCounts (*select_own)(const BandLimits& limits, const BandPoints& points, const std::int32_t* own,
+                           std::uint32_t* out);
+  /// Widens [low, high] to hold f of the own points within the limits. Reading as for select_band.
+  void (*extend_own)(const BandLimits& limits, const BandPoints& points, const std::int32_t* own, float& low,
+                     float& high);
+  /// Sets marked[marks[k]] to 1 for each point k within the limits. Reading as for select_band.
+  void (*mark_band)(const BandLimits& limits, const BandPoints& points, const std::int32_t* marks,
+                    std::uint8_t* marked);
 };
 
 /// floor(coordinate * per_cell) by truncation, which unlike std::floor needs no call and goes into vectors.

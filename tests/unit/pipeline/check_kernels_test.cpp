@@ -146,6 +146,47 @@ TEST(CheckKernels, SelectPartsOfABand) {
   }
 }
 
+TEST(CheckKernels, DescribeTheObjectsPointsOfABand) {
+  constexpr std::int32_t kMarks = 50;
+  const BandLimits limits{0.1f, -0.2f, 0, 0.3f, -0.5f, 0.5f};
+  for (const std::size_t size : {0, 7, 8, 9, 400}) {
+    const Points points(size, 8);
+    const BandPoints band{points.x.data(), points.y.data(), points.index.data(), size};
+    // Beyond the points all are the object's: they must not count.
+    std::pmr::vector<std::int32_t> own(size + kPointPadding, 1), marks(own.size(), kMarks);
+    for (std::size_t k = 0; k < size; ++k) {
+      own[k] = k % 3 == 0 ? 1 : 0;
+      marks[k] = static_cast<std::int32_t>(7 * k % kMarks);
+    }
+    std::pmr::vector<std::uint32_t> all(size + kPointPadding), expected;
+    all.resize(portable_kernels().select_band(limits, band, all.data()));
+    std::pmr::vector<std::uint8_t> expected_marked(kMarks + 1);
+    float expected_low = -0.05f, expected_high = -0.05f;
+    for (const std::uint32_t k : all) {
+      expected_marked[static_cast<std::size_t>(marks[k])] = 1;
+      if (own[k] == 0) continue;
+      expected.push_back(k);
+      expected_low = std::min(expected_low, points.x[k]);
+      expected_high = std::max(expected_high, points.x[k]);
+    }
+    for (const Form& form : forms()) {
+      std::pmr::vector<std::uint32_t> selected(size + kPointPadding + 1, kUntouched);
+      const BandCounts n = form.kernels->select_own(limits, band, own.data(), selected.data());
+      EXPECT_EQ(n.all, all.size()) << form.name << " " << size;
+      EXPECT_EQ(selected.back(), kUntouched) << "writes beyond the room that is asked for";
+      selected.resize(n.own);
+      EXPECT_EQ(selected, expected) << form.name << " " << size;
+      float low = -0.05f, high = -0.05f;
+      form.kernels->extend_own(limits, band, own.data(), low, high);
+      EXPECT_EQ(low, expected_low) << form.name << " " << size;
+      EXPECT_EQ(high, expected_high) << form.name << " " << size;
+      std::pmr::vector<std::uint8_t> marked(expected_marked.size());
+      form.kernels->mark_band(limits, band, marks.data(), marked.data());
+      EXPECT_EQ(marked, expected_marked) << form.name << " " << size;
+    }
+  }
+}
+
 TEST(CheckKernels, FindWhatHidesPlacesInAnImage) {
   constexpr std::int32_t kWidth = 40, kHeight = 30;
   std::vector<float> depth(kWidth * kHeight, 0.8f);
