@@ -10,6 +10,7 @@
 #include <numeric>
 #include <utility>
 
+#include "service/pipeline/flush_faces.hpp"
 #include "service/pipeline/members.hpp"
 #include "service/pipeline/point_kernels.hpp"
 #include "service/pipeline/union_find.hpp"
@@ -100,13 +101,40 @@ bool is_step(const Segment& a, const Segment& b, const Border& border) {
   return std::abs(normal.dot(border.across)) > kStep * static_cast<float>(border.pairs);
 }
 
+bool joins(const Border& border, int min_pairs, float min_convex_share) {
+  return border.pairs >= min_pairs &&
+         static_cast<float>(border.convex) >= min_convex_share * static_cast<float>(border.pairs);
+}
+
+/// Leaves a flush face one border, with the thing that most of it is of.
+std::pmr::vector<FlushFace> part_flush_faces(const PointCloud& cloud, const Segments& segments,
+                                             const ObjectsConfig& config, Borders& borders) {
+  std::pmr::vector<std::pair<std::int32_t, std::int32_t>> convex;
+  for (const auto& [pair, border] : borders)
+    if (joins(border, config.min_border_pairs, config.min_convex_share)) convex.push_back(pair);
+  std::pmr::vector<FlushFace> faces = find_flush_faces(cloud, segments, convex);
+  for (const FlushFace& face : faces) {
+    std::pmr::map<std::int32_t, int> points;
+    for (const std::uint32_t i : segments.list[static_cast<std::size_t>(face.segment)].points)
+      ++points[face.part_at(cloud.point(i)).segment];
+    const std::int32_t most =
+        std::max_element(points.begin(), points.end(), [](const auto& a, const auto& b) {
+          return a.second < b.second;
+        })->first;
+    std::erase_if(borders, [&](const auto& entry) {
+      const auto [a, b] = entry.first;
+      return (a == face.segment && b != most) || (b == face.segment && a != most);
+    });
+  }
+  return faces;
+}
+
 /// Number of each group's set, in the order of their first groups.
 std::pmr::vector<std::int32_t> merge(std::size_t num_groups, const Borders& borders, int min_pairs,
                                      float min_convex_share, int& num_sets) {
   UnionFind sets(num_groups);
   for (const auto& [pair, border] : borders) {
-    if (border.pairs < min_pairs) continue;
-    if (static_cast<float>(border.convex) < min_convex_share * static_cast<float>(border.pairs)) continue;
+    if (!joins(border, min_pairs, min_convex_share)) continue;
     sets.unite(static_cast<std::uint32_t>(pair.first), static_cast<std::uint32_t>(pair.second));
   }
   std::pmr::vector<std::int32_t> set_of_group(num_groups, -1);
@@ -202,11 +230,16 @@ Objects group_segments(const PointCloud& cloud, const Normals& normals, const Ne
     return is_step(segments.list[static_cast<std::size_t>(a)], segments.list[static_cast<std::size_t>(b)],
                    entry.second);
   });
+  const std::pmr::vector<FlushFace> flush = part_flush_faces(cloud, segments, config, borders);
   objects.of_segment = merge(segments.list.size(), borders, config.min_border_pairs, config.min_convex_share,
                              objects.num_objects);
   objects.of_point.assign(cloud.size(), -1);
   for (const std::uint32_t i : members(segments.of_point))
     objects.of_point[i] = objects.of_segment[static_cast<std::size_t>(segments.of_point[i])];
+  for (const FlushFace& face : flush)
+    for (const std::uint32_t i : segments.list[static_cast<std::size_t>(face.segment)].points)
+      objects.of_point[i] =
+          objects.of_segment[static_cast<std::size_t>(face.part_at(cloud.point(i)).segment)];
   for (int round = 0; round < 2; ++round) {
     std::pmr::vector<std::uint32_t> open;
     for (const std::uint32_t i : objects.at_borders)

@@ -9,6 +9,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 
 #include "service/pipeline/detect_handles.hpp"
 #include "tests/support/clouds.hpp"
@@ -61,9 +62,11 @@ TEST(DetectInvariance, OrganizedOrNot) {
 /// In the optical frame the image tells what was seen; without it that is rendered, a little differently
 /// along borders.
 TEST(DetectInvariance, OrganizedInTheOpticalFrameOrNot) {
-  for (const AnalyticScene& scene : {three_objects(), bottle_beside_box()}) {
+  // A bottle is held as well from any side: of its handles the first one alone is sure to be the same.
+  for (const auto& [scene, least_share] :
+       {std::pair(three_objects(), 0.7), std::pair(bottle_beside_box(), 0.3)}) {
     const PointCloud organized = render(in_optical_frame(scene)).cloud;
-    expect_same_grips(detect(organized), detect(finite_points(organized)), 0.7);
+    expect_same_grips(detect(organized), detect(finite_points(organized)), least_share);
   }
 }
 

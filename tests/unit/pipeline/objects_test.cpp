@@ -137,6 +137,10 @@ TEST(Objects, ParallelFacesWithAStepBetweenThemAreTwo) {
   EXPECT_EQ(objects_of_two_faces(-0.004f), 2) << "whichever is the higher";
 }
 
+TEST(Objects, BoxesOfDifferentHeightWithFlushFrontsAreTwo) {
+  expect_one_object_each(group(touching_boxes()), {1, 2});
+}
+
 TEST(Objects, ThePointsOfTheSupportBelongToNone) {
   const Grouped g = group(box_on_table());
   ASSERT_TRUE(g.support);
