@@ -173,19 +173,6 @@ void BoxQuery::find(const Eigen::Vector3f& origin, const Eigen::Matrix3f& rotati
   });
 }
 
-void BoxQuery::find_more(const Eigen::Vector3f& origin, const Eigen::Matrix3f& rotation,
-                         const Eigen::Vector3f& min, const Eigen::Vector3f& max, std::uint32_t first_index,
-                         LocalPoints& out) const {
-  if (layers_.size() < 2) return;
-  const std::size_t before = out.size();
-  const Box box(origin, rotation, min, max, 0.5f * cell_m_);
-  for_each_part(box, [&](std::span<const PointSpan> spans) {
-    out.add_inside(box.test, points_.all(), spans);
-    return true;
-  });
-  for (std::size_t k = before; k < out.size(); ++k) out.index[k] += first_index;
-}
-
 bool BoxQuery::has_more(const Eigen::Vector3f& origin, const Eigen::Matrix3f& rotation,
                         const Eigen::Vector3f& min, const Eigen::Vector3f& max, int limit) const {
   const Box box(origin, rotation, min, max, 0.5f * cell_m_);

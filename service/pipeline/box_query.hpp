@@ -53,10 +53,6 @@ class BoxQuery {
   void find(const Eigen::Vector3f& origin, const Eigen::Matrix3f& rotation, const Eigen::Vector3f& min,
             const Eigen::Vector3f& max, LocalPoints& out) const;
 
-  /// The same, after what is in out; first_index is added to their indices.
-  void find_more(const Eigen::Vector3f& origin, const Eigen::Matrix3f& rotation, const Eigen::Vector3f& min,
-                 const Eigen::Vector3f& max, std::uint32_t first_index, LocalPoints& out) const;
-
   /// Whether more than limit points lie in the box.
   [[nodiscard]] bool has_more(const Eigen::Vector3f& origin, const Eigen::Matrix3f& rotation,
                               const Eigen::Vector3f& min, const Eigen::Vector3f& max, int limit) const;

@@ -5,9 +5,12 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <span>
+#include <utility>
 
 #include "service/pipeline/round_body.hpp"
 #include "service/pipeline/surfaces.hpp"
@@ -18,7 +21,6 @@ namespace {
 constexpr float kSpacing = 0.004f;  // between points around the axis [m]
 constexpr float kBehind = 0.008f;   // that a hidden place is behind what is seen, or a free one before it [m]
 constexpr float kMostFreeShare = 0.15f;
-constexpr float kCell = 0.015f;  // of the grid for box queries [m]
 
 struct Wall {
   std::pmr::vector<Eigen::Vector3f> points, normals;
@@ -65,19 +67,55 @@ Wall hidden_wall(const RoundBody& body, const DepthMap& depth_map, const Eigen::
   return share > kMostFreeShare ? Wall{} : hidden;
 }
 
-BoundingBall bound(const std::pmr::vector<Eigen::Vector3f>& points) {
+BoundingBall bound(std::span<const Eigen::Vector3f> points) {
   Eigen::AlignedBox3f box;
   for (const Eigen::Vector3f& p : points) box.extend(p);
   return {box.center(), 0.5f * box.diagonal().norm()};
 }
 
+/// Parts of points of which the first is number first.
+void add_parts(std::span<const Eigen::Vector3f> points, std::size_t first,
+               std::pmr::vector<FarSides::Part>& parts) {
+  constexpr std::size_t kMost = 96;
+  for (std::size_t from = 0; from < points.size(); from += kMost) {
+    const std::span<const Eigen::Vector3f> part = points.subspan(from, std::min(kMost, points.size() - from));
+    const auto begin = static_cast<std::uint32_t>(first + from);
+    parts.push_back({bound(part), {begin, begin + static_cast<std::uint32_t>(part.size())}});
+  }
+}
+
+bool may_meet(const BoxTest& box, const BoundingBall& ball) {
+  for (int i = 0; i < 3; ++i) {
+    const float* axis = box.to_local[i];
+    const float at =
+        axis[0] * ball.center.x() + axis[1] * ball.center.y() + axis[2] * ball.center.z() + box.shift[i];
+    if (at + ball.radius < box.min[i] || at - ball.radius > box.max[i]) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
-bool FarSides::may_be_near(const Eigen::Vector3f& p, float distance_m) const {
-  return std::any_of(bounds.begin(), bounds.end(), [&](const BoundingBall& b) {
-    const float reach = b.radius + distance_m;
-    return (b.center - p).squaredNorm() <= reach * reach;
-  });
+void FarSides::add_inside(const BoxTest& box, std::uint32_t first_index, LocalPoints& out) const {
+  const std::size_t before = out.size();
+  std::array<PointSpan, 32> spans;
+  std::size_t n = 0;
+  for (const Part& part : parts) {
+    if (!may_meet(box, part.bounds)) continue;
+    spans[n++] = part.points;
+    if (n == spans.size()) out.add_inside(box, padded.all(), {spans.data(), std::exchange(n, 0)});
+  }
+  if (n > 0) out.add_inside(box, padded.all(), {spans.data(), n});
+  for (std::size_t k = before; k < out.size(); ++k) out.index[k] += first_index;
+}
+
+bool FarSides::has_more(const BoxTest& box, int limit) const {
+  const auto most = static_cast<std::size_t>(limit);
+  std::size_t n = 0;
+  for (const Part& part : parts)
+    if (may_meet(box, part.bounds) && n <= most)
+      n += point_kernels().count_inside(box, padded.all(), {&part.points, 1}, most);
+  return n > most;
 }
 
 FarSides find_far_sides(const Surfaces& surfaces, const DepthMap& depth_map) {
@@ -101,7 +139,7 @@ FarSides find_far_sides(const Surfaces& surfaces, const DepthMap& depth_map) {
   for (std::size_t s = objects.of_segment.size(); s-- > 0;) {
     Wall& wall = walls[static_cast<std::size_t>(objects.of_segment[s])];
     if (wall.points.empty()) continue;
-    sides.bounds.push_back(bound(wall.points));
+    add_parts(wall.points, sides.cloud.size(), sides.parts);
     for (std::size_t i = 0; i < wall.points.size(); ++i) {
       sides.cloud.push_back(wall.points[i]);
       sides.normals.x.push_back(wall.normals[i].x());
@@ -112,7 +150,8 @@ FarSides find_far_sides(const Surfaces& surfaces, const DepthMap& depth_map) {
     }
     wall = {};
   }
-  sides.query = BoxQuery(sides.cloud, kCell);
+  const PointSpan all{0, static_cast<std::uint32_t>(sides.cloud.size())};
+  sides.padded = PaddedPoints(sides.cloud, {&all, 1}, sides.cloud.size());
   return sides;
 }
 

@@ -25,11 +25,18 @@ struct FarSides {
   /// Voxels of the points of the workspace and of sparse voxels, and then of each of the far sides' points
   /// one of the same object.
   std::pmr::vector<std::uint32_t> voxel_of_point, voxel_of_sparse;
-  std::pmr::vector<BoundingBall> bounds;  ///< around those of each object that has some
-  BoxQuery query;
+  /// Points that follow one another and so are near each other.
+  struct Part {
+    BoundingBall bounds;
+    PointSpan points;
+  };
+  std::pmr::vector<Part> parts;
+  PaddedPoints padded;  ///< the same points
 
-  /// Whether one of the points may be as near to a place.
-  [[nodiscard]] bool may_be_near(const Eigen::Vector3f& p, float distance_m) const;
+  /// Adds those in a box, with indices from first_index on.
+  void add_inside(const BoxTest& box, std::uint32_t first_index, LocalPoints& out) const;
+  /// Whether more than limit are in a box.
+  [[nodiscard]] bool has_more(const BoxTest& box, int limit) const;
 };
 
 /// Every object that is part of a body of revolution goes on as it where that is hidden. Nothing for one of

@@ -106,10 +106,10 @@ Failure Check::check_volumes() {
   if (fingers > scene_.tolerance) return Failure::kFingers;
   const auto blocked = [&](float half_width, float z0, float z1) {
     const Eigen::Vector3f min(-half_e, -half_width, z0), max(half_e, half_width, z1);
-    const auto blocks = [&](const BoxQuery& query) {
-      return query.has_more(handle_.position, handle_.rotation, min, max, scene_.tolerance);
-    };
-    return blocks(scene_.query) || (scene_.far_sides != nullptr && blocks(scene_.far_sides->query));
+    return scene_.query.has_more(handle_.position, handle_.rotation, min, max, scene_.tolerance) ||
+           (scene_.far_sides != nullptr &&
+            scene_.far_sides->has_more(box_test(handle_.position, handle_.rotation, min, max),
+                                       scene_.tolerance));
   };
   if (blocked(half_hand, hand_top, palm_top)) return Failure::kPalm;
   return blocked(half_hand, hand_top - config_.way_m, hand_top) ? Failure::kWay : Failure::kNone;

@@ -47,9 +47,9 @@ struct SceneView {
   void find(const Eigen::Vector3f& origin, const Eigen::Matrix3f& rotation, const Eigen::Vector3f& min,
             const Eigen::Vector3f& max, LocalPoints& out) const {
     query.find(origin, rotation, min, max, out);
-    if (far_sides != nullptr &&
-        far_sides->may_be_near(origin + rotation * (0.5f * (min + max)), 0.5f * (max - min).norm()))
-      far_sides->query.find_more(origin, rotation, min, max, static_cast<std::uint32_t>(cloud.size()), out);
+    if (far_sides != nullptr)
+      far_sides->add_inside(box_test(origin, rotation, min, max), static_cast<std::uint32_t>(cloud.size()),
+                            out);
   }
 };
 

@@ -51,6 +51,26 @@ TEST(FarSides, AreTheHiddenWallsOfRoundObjects) {
   }
 }
 
+TEST(FarSides, FindTheirPointsInABox) {
+  const PointCloud cloud = cloud_of(cylinder_on_table());
+  const FarSides sides = find_far_sides(surfaces_of(cloud), DepthMap(cloud));
+  ASSERT_GT(sides.cloud.size(), 100u);
+  const Eigen::Matrix3f rotation(Eigen::AngleAxisf(0.7f, Eigen::Vector3f(1, 2, 3).normalized()));
+  const Eigen::Vector3f min(-0.01f, -0.03f, -0.04f), max(0.01f, 0.05f, 0.04f);
+  for (std::size_t k = 0; k < sides.cloud.size(); k += 17) {
+    const BoxTest box = box_test(sides.cloud.point(k), rotation, min, max);
+    LocalPoints expected, found;
+    const PointSpan all{0, static_cast<std::uint32_t>(sides.cloud.size())};
+    expected.add_inside(box, sides.padded.all(), {&all, 1});
+    sides.add_inside(box, 1000, found);
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i) EXPECT_EQ(found.index[i], expected.index[i] + 1000);
+    const auto n = static_cast<int>(expected.size());
+    EXPECT_TRUE(sides.has_more(box, n - 1));
+    EXPECT_FALSE(sides.has_more(box, n));
+  }
+}
+
 TEST(FarSides, WhereTheSensorLooksThroughThereIsNone) {
   const PointCloud cloud = cloud_of(cylinder_on_table()), empty_table = cloud_of(on_table({}));
   EXPECT_TRUE(find_far_sides(surfaces_of(cloud), DepthMap(empty_table)).cloud.empty());
