@@ -263,6 +263,10 @@ GRASPD_AVX2 void mark_band(const BandLimits& limits, const BandPoints& points, c
   const Band band(limits);
   for (std::size_t k = 0; k < points.size; k += 8) {
     unsigned mask = valid_lanes(_mm256_movemask_ps(band.within(points, k)), k, points.size);
+    if (mask == 0xff) {  // as most that have any
+      for (std::size_t i = 0; i < 8; ++i) marked[marks[k + i]] = 1;
+      continue;
+    }
     for (; mask != 0; mask &= mask - 1) marked[marks[k + static_cast<unsigned>(std::countr_zero(mask))]] = 1;
   }
 }

@@ -25,6 +25,10 @@ constexpr int kMinSparse = 6, kMinPoints = 12;  // of the object between the jaw
 // them.
 constexpr std::size_t kAtOnce = 6, kEnoughHandles = 4, kMostOfAnObject = 18;
 
+// The first look is taken at the candidates on a segment in so many parts, and at no more when as many passed
+// as the thorough one takes.
+constexpr std::size_t kParts = 8, kPlenty = kMostOfAnObject;
+
 using Results = std::pmr::vector<CheckResult>;
 
 /// outlines: a first look, which refuses at little cost what is much too wide; null: the thorough one.
@@ -98,16 +102,31 @@ void set_ranks(std::pmr::vector<Promising>& all) {
   for (const std::size_t i : order) all[i].rank = seen[all[i].candidate.object]++;
 }
 
-/// The candidates that passed the first look; counts those that failed.
-std::pmr::vector<Promising> promising_ones(const std::pmr::vector<Candidate>& candidates,
-                                           const Results& coarse, SearchResult& out) {
+/// The candidates that pass the first look; counts those that fail. It is taken at every kParts-th candidate
+/// on a segment at a time, and at no more of them when plenty passed: the rest would say the same.
+template <class Check>
+std::pmr::vector<Promising> promising_ones(const std::pmr::vector<Candidate>& candidates, const Check& check,
+                                           SearchResult& out) {
+  std::pmr::vector<std::size_t> seen(out.segments.size()), num_passed(seen);
+  std::pmr::vector<std::pmr::vector<std::uint32_t>> parts(kParts);
+  for (std::uint32_t i = 0; i < candidates.size(); ++i)
+    parts[seen[static_cast<std::size_t>(candidates[i].segment)]++ % kParts].push_back(i);
   std::pmr::vector<Promising> passed;
-  passed.reserve(candidates.size());
-  for (std::size_t i = 0; i < candidates.size(); ++i)
-    if (coarse[i].failure == Failure::kNone)
-      passed.push_back({candidates[i], score(coarse[i].margins), coarse[i].handle.position});
-    else
-      out.count(candidates[i].segment, coarse[i].failure);
+  std::pmr::vector<Candidate> next;
+  for (const std::pmr::vector<std::uint32_t>& part : parts) {
+    next.clear();
+    for (const std::uint32_t i : part)
+      if (num_passed[static_cast<std::size_t>(candidates[i].segment)] < kPlenty)
+        next.push_back(candidates[i]);
+    const Results results = check(next);
+    for (std::size_t k = 0; k < next.size(); ++k)
+      if (results[k].failure == Failure::kNone) {
+        passed.push_back({next[k], score(results[k].margins), results[k].handle.position});
+        ++num_passed[static_cast<std::size_t>(next[k].segment)];
+      } else {
+        out.count(next[k].segment, results[k].failure);
+      }
+  }
   set_ranks(passed);
   return passed;
 }
@@ -190,8 +209,10 @@ void GuessSearch::run(const std::pmr::vector<std::uint8_t>& wanted, CheckBuffers
     for (std::size_t k = 0; k < open.size(); ++k)
       if (num_handles[k] > 0) open[k] = 0;
     const std::pmr::vector<Candidate> candidates = search.candidates(round, open);
-    const std::pmr::vector<Promising> promising = promising_ones(
-        candidates, check_all(sparse_, gripper_, coarse_check_, candidates, &outlines_, buffers), out);
+    const auto first_look = [&](const std::pmr::vector<Candidate>& some) {
+      return check_all(sparse_, gripper_, coarse_check_, some, &outlines_, buffers);
+    };
+    const std::pmr::vector<Promising> promising = promising_ones(candidates, first_look, out);
     for (std::size_t rank = 0; rank < kMostOfAnObject; rank += kAtOnce) {
       std::pmr::vector<Candidate> next;
       for (const Promising& p : promising)
