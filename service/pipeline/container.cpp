@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "service/pipeline/cell_order.hpp"
@@ -58,6 +59,31 @@ bool stands_among(const PointRange& points, const Plane& face, std::size_t most)
   return std::min(front, behind) > most;
 }
 
+/// Whether what has the face reaches back from it at the face's own height along most of its length, as books
+/// that stand in a row do: walls of bins are thin.
+bool is_thick(const PointRange& standing, const Support& support, const Wall& wall, float thickness_m) {
+  constexpr float kBin = 0.01f, kDepth = 0.05f, kBelowTop = 0.012f, kMostThick = 0.25f;
+  constexpr int kBins = 1024;
+  const Eigen::Vector3f along = support.plane.normal.cross(wall.face.normal);
+  const auto bin = [&](const Eigen::Vector3f& p) {
+    return std::clamp(static_cast<int>(along.dot(p) / kBin) + kBins / 2, 0, kBins - 1);
+  };
+  std::array<float, kBins> face{}, behind{};  // highest of each, above the support
+  for (std::size_t k = 0; k < standing.size; ++k) {
+    const Eigen::Vector3f p(standing.x[k], standing.y[k], standing.z[k]);
+    const float d = wall.face.height(p);
+    if (d > thickness_m || d < -kDepth || (d < -thickness_m && d > -2 * thickness_m)) continue;
+    float& top = (d < -thickness_m ? behind : face)[static_cast<std::size_t>(bin(p))];
+    top = std::max(top, support.plane.height(p));
+  }
+  int num_bins = 0, thick = 0;
+  for (std::size_t k = 0; k < kBins; ++k) {
+    num_bins += face[k] > 0 ? 1 : 0;
+    thick += face[k] > 0 && std::abs(behind[k] - face[k]) < kBelowTop ? 1 : 0;
+  }
+  return static_cast<float>(thick) > kMostThick * static_cast<float>(num_bins);
+}
+
 /// Whether the face is long and high enough, and has nearly all points on one side.
 bool is_wall(const PointRange& standing, const Support& support, const ContainerConfig& config, Wall& wall) {
   const auto most = static_cast<std::size_t>(config.max_outside_share * static_cast<float>(standing.size));
@@ -73,7 +99,7 @@ bool is_wall(const PointRange& standing, const Support& support, const Container
   if (trimmed_length(lengths) < config.min_length_m) return false;
   if (trimmed_length(heights) < 0.7f * config.min_height_m) return false;
   wall.top_m = heights[heights.size() - 1 - heights.size() / 50];
-  return wall.top_m >= config.min_height_m;
+  return wall.top_m >= config.min_height_m && !is_thick(standing, support, wall, config.thickness_m);
 }
 
 std::pmr::vector<Wall> find_walls(const PointCloud& cloud, const Segments& segments,
