@@ -193,6 +193,44 @@ Contact edge_contact(const ContactInput& in, float side, float end_m, float hidd
           end_m + side * lean};
 }
 
+/// Whether the sensor saw something well behind most places just beyond the end, below its height: where a
+/// face is missing nothing is seen.
+bool is_seen_through(const ContactInput& in, float side, float end_m, float top_m) {
+  constexpr float kBelow = 0.002f, kBehind = 0.010f, kAnywhere = 1e3f;
+  int seen = 0, through = 0;
+  for (const float a : {-0.3f, 0.0f, 0.3f})
+    for (const float beyond : {0.006f, 0.010f}) {
+      const Eigen::Vector3f place =
+          in.position +
+          in.rotation * Eigen::Vector3f(a * in.finger_thickness_m, end_m + side * beyond, top_m + kBelow);
+      ++seen;
+      through += in.scene.depth_map.hider(place, -kBehind) == DepthMap::kFree &&
+                         in.scene.depth_map.hider(place, -kAnywhere) != DepthMap::kFree
+                     ? 1
+                     : 0;
+    }
+  return 3 * through >= 2 * seen;
+}
+
+/// Whether what is between the jaws is the edge of a thin wall that ends here: a plate's other face is out of
+/// sight, and what is seen of its edge is too narrow for a face of its own.
+bool is_thin_edge(const ContactInput& in, float side, float end_m) {
+  constexpr float kThin = 0.012f, kEdgeDepth = 0.006f;
+  int near = 0, high = 0;
+  float low = end_m, far = end_m;
+  for (const std::uint32_t k : in.between) {
+    const bool is_high = in.local.z[k] <= in.top_m + kEdgeDepth;
+    if (is_high) {
+      low = std::min(low, in.local.f[k]);
+      far = std::max(far, in.local.f[k]);
+    }
+    if (side * (end_m - in.local.f[k]) > kEndZone) continue;
+    ++near;
+    high += is_high ? 1 : 0;
+  }
+  return far - low <= kThin && 2 * high >= near && is_seen_through(in, side, end_m, in.top_m);
+}
+
 }  // namespace
 
 Contact find_contact(const ContactInput& in, float side, float end_m, float hidden_share) {
@@ -201,11 +239,11 @@ Contact find_contact(const ContactInput& in, float side, float end_m, float hidd
   if (static_cast<float>(end.facing) >= kWallShare * static_cast<float>(end.near))
     return {2 * end.seen >= end.near ? ContactKind::kWall : ContactKind::kCurvedEdge, end_m,
             in.rotation.transpose() * end.facing_sum.normalized()};
-  // A far side that turns away from the jaw is none to hold by.
-  if (2 * end.seen < end.near) return {ContactKind::kNone, end_m, {}};
   const Eigen::Vector3f to_sensor = (in.scene.cloud.viewpoint - in.position).normalized();
-  if (side * in.rotation.col(1).dot(to_sensor) > kCameraSide || too_small(in, end.face))
-    return {ContactKind::kNone, end_m, {}};
+  if (side * in.rotation.col(1).dot(to_sensor) > kCameraSide) return {ContactKind::kNone, end_m, {}};
+  if (is_thin_edge(in, side, end_m)) return {ContactKind::kThinEdge, end_m, {}};
+  // A far side that turns away from the jaw is none to hold by.
+  if (2 * end.seen < end.near || too_small(in, end.face)) return {ContactKind::kNone, end_m, {}};
   return edge_contact(in, side, end_m, hidden_share, end.face);
 }
 

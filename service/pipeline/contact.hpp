@@ -18,6 +18,7 @@ enum class ContactKind : std::uint8_t {
   kFreeEdge,    ///< an edge with seen free space beside it; the wall itself is out of sight
   kCurvedEdge,  ///< beside hidden space: the face carried on as a circle stays clear of the finger
   kFlatEdge,    ///< beside hidden space: the face is flat and ends in a wall at a right angle
+  kThinEdge,    ///< the edge of a thin wall whose other face is out of sight
 };
 
 /// Where the candidate is in the scene, and which of the local points are the object's between the jaws.

@@ -17,6 +17,8 @@ namespace {
 
 constexpr float kAmpleRoom = 0.25f;  // share of the aperture left free from which on more does not matter
 constexpr float kThin = 0.012f, kThick = 0.022f;  // of objects: narrower is doubtful, wider is not [m]
+constexpr float kThinWall = 0.014f;               // and so thin that it must be met squarely [m]
+constexpr float kMaxThinMisalignment = 6.0f;      // within this [degrees]
 constexpr float kAmpleArea = 5e-4f;               // seen between the jaws, beyond what must be [m2]
 constexpr float kHideMargin =
     0.008f;  // a place is hidden when something is nearer to the sensor by this much [m]
@@ -258,6 +260,11 @@ Eigen::Vector3f Check::squared_axis(const Contact& low, const Contact& high, boo
   return axis.normalized();
 }
 
+/// A thin wall that the jaws do not meet squarely is met at its edges, and turns.
+bool is_thin(const Contact& low, const Contact& high) {
+  return high.reach_m - low.reach_m < kThinWall;
+}
+
 Failure Check::check_contacts() {
   if (seen_area() < config_.min_contact_area_m2 || gripper_.grasp_depth_m - top_ < config_.min_grip_depth_m)
     return Failure::kContact;
@@ -290,7 +297,8 @@ Failure Check::check_contacts() {
   margins_.contact = {low.kind, high.kind};
   squared_ = handle_.rotation * squared;
   const float off = std::acos(std::clamp(squared.y(), -1.0f, 1.0f)) / radians(config_.max_misalignment_deg);
-  if (off > 1) return Failure::kContact;
+  if (off > 1 || (is_thin(low, high) && off * config_.max_misalignment_deg > kMaxThinMisalignment))
+    return Failure::kContact;
   margins_.square = 1 - off;
   set_width_from(low, high);
   margins_.width = (gripper_.aperture_m - handle_.width_m) / (kAmpleRoom * gripper_.aperture_m);

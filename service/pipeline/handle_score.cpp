@@ -19,6 +19,8 @@ float doubt(ContactKind kind) {
       return 0.45f;
     case ContactKind::kFlatEdge:
       return 0.35f;
+    case ContactKind::kThinEdge:
+      return 2.0f;
     case ContactKind::kNone:
       return 10.0f;
   }

@@ -22,6 +22,10 @@ struct HandleMargins {
   float area = 1;         ///< how much of it is seen between the jaws
   float steady = 1;       ///< share of the poses next to it that hold too
   float central = 1;      ///< how near the jaws are to the middle of the visible object
+
+  [[nodiscard]] bool has_thin_edge() const {
+    return contact[0] == ContactKind::kThinEdge || contact[1] == ContactKind::kThinEdge;
+  }
 };
 
 /// The chance that the handle holds: a logistic function of the contacts and the margins, each of which takes

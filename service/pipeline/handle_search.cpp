@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "service/pipeline/cell_order.hpp"
+#include "service/pipeline/rim_search.hpp"
 #include "service/pipeline/thin_out.hpp"
 
 namespace graspd {
@@ -264,7 +265,13 @@ std::pmr::vector<Candidate> HandleSearch::candidates(SearchRound round,
   std::pmr::vector<std::pmr::vector<Candidate>> parts(num_segments + seeds_.size());
   tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t k) {
     if (k >= num_segments) {
-      if (const std::size_t object = k - num_segments; open[object] != 0) add_seeds(object, round, parts[k]);
+      if (const std::size_t object = k - num_segments; open[object] != 0) {
+        add_seeds(object, round, parts[k]);
+        if (config_.seeds && round == SearchRound::kSurroundings) {
+          const auto rims = rim_candidates(in_, object, gripper_, config_);
+          parts[k].insert(parts[k].end(), rims.begin(), rims.end());
+        }
+      }
     } else if (config_.bands && round == SearchRound::kSurface && wanted_[k] != 0 &&
                open[static_cast<std::size_t>(in_.objects.of_segment[k])] != 0) {
       add_bands(k, in_.segments.list[k].major, parts[k]);

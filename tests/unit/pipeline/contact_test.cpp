@@ -101,6 +101,15 @@ TEST(Contact, AThingThatTheSensorSeesPastIsNoWiderThanWhatIsSeen) {
   }
 }
 
+TEST(Contact, TheBackOfAPlateIsAThinEdge) {
+  const CheckScene scene(on_table({standing_box(0, 0, {0.12, 0.006, 0.08})}));
+  const auto [front, back] = scene.contacts(scene.candidate({0, 0, 0.08f}, kDown, kAlong));
+  EXPECT_EQ(front.kind, ContactKind::kWall);
+  EXPECT_EQ(back.kind, ContactKind::kThinEdge);
+  EXPECT_NEAR(front.reach_m, -0.003f, 0.002f);
+  EXPECT_NEAR(back.reach_m, 0.003f, 0.002f);
+}
+
 TEST(Contact, WhereSomethingNearerHidesTheRestIsNoEdge) {
   // A tall box close to the camera hides the right part of a wide one.
   const AnalyticSolid wide = standing_box(0, 0.06, {0.12, 0.06, 0.06});

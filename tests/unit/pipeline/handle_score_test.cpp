@@ -17,8 +17,8 @@ constexpr std::array kMargins{
     &HandleMargins::width,     &HandleMargins::grip_depth, &HandleMargins::silhouettes,
     &HandleMargins::square,    &HandleMargins::walls,      &HandleMargins::seen,
     &HandleMargins::thickness, &HandleMargins::area,       &HandleMargins::central};
-constexpr std::array kKinds{ContactKind::kNone, ContactKind::kWall, ContactKind::kFreeEdge,
-                            ContactKind::kCurvedEdge, ContactKind::kFlatEdge};
+constexpr std::array kKinds{ContactKind::kNone,       ContactKind::kWall,     ContactKind::kFreeEdge,
+                            ContactKind::kCurvedEdge, ContactKind::kFlatEdge, ContactKind::kThinEdge};
 
 HandleMargins with(ContactKind low, ContactKind high, float margin = 1) {
   HandleMargins margins;

@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/pipeline/rim_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "service/pipeline/cell_order.hpp"
+#include "service/pipeline/raw_vector.hpp"
+
+namespace graspd {
+namespace {
+
+constexpr float kNear = 0.009f;      // around a point, where it is looked whether the surface goes on [m]
+constexpr float kMinOffset = 0.25f;  // of the mean of what is near, in units of kNear: 0.42 at a straight end
+constexpr float kMinUp = 0.5f;       // cosine between the rim's direction and up
+constexpr float kMaxAside = 0.010f;  // of the strip below the rim along it [m]
+constexpr float kMaxAcross = 0.020f;  // and across it [m]
+constexpr float kEdge = 0.005f;       // below the rim, where normals mix both faces and the edge [m]
+constexpr float kMinFacing = 0.7f;    // cosine between a point's normal and across
+constexpr int kMinStrip = 8;          // points
+
+/// An object's voxels, and which of them are near a place.
+class Wall {
+ public:
+  Wall(const SearchInput& in, std::span<const std::uint32_t> points)
+      : in_(in), points_(in.cloud, points), near_(points.size() + kPointPadding) {}
+
+  [[nodiscard]] std::span<const std::uint32_t> near(const Eigen::Vector3f& p, float radius_m) {
+    const PointSpan all{0, static_cast<std::uint32_t>(points_.size())};
+    const std::size_t n = point_kernels().keep_near({p.x(), p.y(), p.z()}, radius_m * radius_m, points_.all(),
+                                                    {&all, 1}, near_.data());
+    return {near_.data(), n};
+  }
+
+ private:
+  const SearchInput& in_;
+  PaddedPoints points_;
+  RawVector<std::uint32_t> near_;
+};
+
+/// Where the surface with normal n ends at p: the direction in it away from the rest, if any.
+std::optional<Eigen::Vector3f> end_direction(const SearchInput& in, Wall& wall, const Eigen::Vector3f& p,
+                                             const Eigen::Vector3f& n) {
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  const std::span<const std::uint32_t> near = wall.near(p, kNear);
+  for (const std::uint32_t i : near) sum += in.cloud.point(i) - p;
+  const Eigen::Vector3f offset = (sum - sum.dot(n) * n) / static_cast<float>(near.size());
+  if (offset.norm() < kMinOffset * kNear) return std::nullopt;
+  return -offset.normalized();
+}
+
+/// The wall below a rim at p, where the surface has normal n and ends upwards: axes along the rim, across the
+/// wall and down along it. The edge itself says little: normals there mix both faces.
+std::optional<Eigen::Matrix3f> wall_axes(const SearchInput& in, Wall& wall, const Eigen::Vector3f& p,
+                                         const Eigen::Vector3f& n, const Eigen::Vector3f& up, float depth_m) {
+  const Eigen::Vector3f along = n.cross(up);
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  int size = 0;
+  for (const std::uint32_t i : wall.near(p, depth_m + kNear)) {
+    const Eigen::Vector3f d = in.cloud.point(i) - p, normal = in.normals.at(i);
+    const float below = -up.dot(d);
+    if (below < kEdge || below > depth_m || std::abs(along.dot(d)) > kMaxAside) continue;
+    if (std::abs(n.dot(d)) > kMaxAcross || normal.dot(n) < kMinFacing) continue;
+    sum += normal;
+    ++size;
+  }
+  if (size < kMinStrip) return std::nullopt;
+  const Eigen::Vector3f across = sum.normalized();
+  Eigen::Matrix3f axes;
+  axes.col(2) = (up.dot(across) * across - up).normalized();
+  axes.col(1) = across;
+  axes.col(0) = across.cross(axes.col(2));
+  return axes;
+}
+
+/// One of the points a cell, the highest.
+std::pmr::vector<std::uint32_t> highest_points(const SearchInput& in, std::span<const std::uint32_t> points,
+                                               const Eigen::Vector3f& up, float cell_m) {
+  const CellOrder order = order_by_cell(points_at(in.cloud, points), cell_m);
+  std::pmr::vector<std::uint32_t> chosen(order.num_cells());
+  for (std::size_t c = 0; c < chosen.size(); ++c) {
+    const std::span<const std::uint32_t> cell = order.cell(c);
+    const auto lower = [&](std::uint32_t a, std::uint32_t b) {
+      return up.dot(in.cloud.point(points[a])) < up.dot(in.cloud.point(points[b]));
+    };
+    chosen[c] = points[*std::max_element(cell.begin(), cell.end(), lower)];
+  }
+  return chosen;
+}
+
+}  // namespace
+
+std::pmr::vector<Candidate> rim_candidates(const SearchInput& in, std::size_t object, const Gripper& gripper,
+                                           const HandleSearchConfig& config) {
+  std::pmr::vector<Candidate> candidates;
+  const std::span<const std::uint32_t> points = in.object_points.of(object);
+  if (points.empty()) return candidates;
+  Wall wall(in, points);
+  const Eigen::Vector3f up =
+      in.support ? in.support->plane.normal : (in.cloud.viewpoint - in.objects.center[object]).normalized();
+  for (const std::uint32_t k : highest_points(in, points, up, 0.5f * config.seed_spacing_m)) {
+    const Eigen::Vector3f p = in.cloud.point(k), n = in.normals.at(k);
+    const std::int32_t segment = in.segments.of_point[k];
+    if (segment < 0 || n.isZero()) continue;
+    const Eigen::Vector3f to_sensor = (in.cloud.viewpoint - p).normalized();
+    const std::optional<Eigen::Vector3f> end = end_direction(in, wall, p, n);
+    if (!end || end->dot(up) < kMinUp) continue;
+    const auto axes = wall_axes(in, wall, p, n, *end, gripper.grasp_depth_m);
+    if (!axes || -axes->col(2).dot(to_sensor) < config.min_facing_cosine) continue;
+    candidates.push_back({p, *axes, segment, static_cast<std::int32_t>(object)});
+  }
+  return candidates;
+}
+
+}  // namespace graspd
