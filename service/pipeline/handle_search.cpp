@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "service/pipeline/cell_order.hpp"
+#include "service/pipeline/near_points.hpp"
 #include "service/pipeline/rim_search.hpp"
 #include "service/pipeline/thin_out.hpp"
 
@@ -72,51 +73,15 @@ Eigen::Vector3f rectangle_axis(const PointCloud& cloud, const Segment& segment) 
   return best;
 }
 
-/// An object's voxels in blocks of a few that follow one another and so are near each other: most blocks are
-/// nowhere near a seed.
-class FaceNormals {
- public:
-  FaceNormals(const SearchInput& in, std::span<const std::uint32_t> object)
-      : in_(in), points_(in.cloud, object), near_(object.size() + kPointPadding) {
-    constexpr float kFar = std::numeric_limits<float>::max();
-    for (std::size_t from = 0; from < points_.size(); from += kBlock) {
-      const PointRange part = points_.range(from, std::min(from + kBlock, points_.size()));
-      Eigen::Array3f low(kFar, kFar, kFar), high = -low;
-      point_kernels().extend_bounds(part.x, part.size, low.x(), high.x());
-      point_kernels().extend_bounds(part.y, part.size, low.y(), high.y());
-      point_kernels().extend_bounds(part.z, part.size, low.z(), high.z());
-      low_.push_back(low - kReach);
-      high_.push_back(high + kReach);
-    }
-    spans_.reserve(low_.size());
-  }
-
-  /// Mean normal of those near the seed.
-  [[nodiscard]] Eigen::Vector3f at(std::uint32_t seed) {
-    const Eigen::Vector3f p = in_.cloud.point(seed), n = in_.normals.at(seed);
-    spans_.clear();
-    for (std::size_t k = 0; k < low_.size(); ++k)
-      if ((p.array() >= low_[k]).all() && (p.array() <= high_[k]).all())
-        spans_.push_back({static_cast<std::uint32_t>(k * kBlock),
-                          static_cast<std::uint32_t>(std::min((k + 1) * kBlock, points_.size()))});
-    const std::size_t num_near = point_kernels().keep_near({p.x(), p.y(), p.z()}, kRadius * kRadius,
-                                                           points_.all(), spans_, near_.data());
-    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-    for (std::size_t k = 0; k < num_near; ++k)
-      if (in_.normals.at(near_[k]).dot(n) > 0.8f) sum += in_.normals.at(near_[k]);
-    return sum.norm() > 1e-3f ? sum.normalized() : n;
-  }
-
- private:
-  static constexpr std::size_t kBlock = 64;
-  static constexpr float kRadius = 0.015f, kReach = kRadius + 1e-5f;
-
-  const SearchInput& in_;
-  PaddedPoints points_;
-  std::pmr::vector<Eigen::Array3f> low_, high_;  // of each block, and what is within reach
-  std::pmr::vector<PointSpan> spans_;
-  RawVector<std::uint32_t> near_;
-};
+/// Mean normal of the object's voxels near a seed.
+Eigen::Vector3f face_normal(const Normals& normals, NearPoints& object, const Eigen::Vector3f& p,
+                            const Eigen::Vector3f& n) {
+  constexpr float kRadius = 0.015f;
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  for (const std::uint32_t i : object.within(p, kRadius))
+    if (normals.at(i).dot(n) > 0.8f) sum += normals.at(i);
+  return sum.norm() > 1e-3f ? sum.normalized() : n;
+}
 
 }  // namespace
 
@@ -140,13 +105,14 @@ HandleSearch::HandleSearch(const SearchInput& input, const Gripper& gripper, con
 }
 
 std::pmr::vector<HandleSearch::Seed> HandleSearch::spread_seeds(std::span<const std::uint32_t> points) const {
-  FaceNormals normals(in_, points);
+  NearPoints object(in_.cloud, points);
   std::pmr::vector<Seed> seeds;
   for (const std::uint32_t k : thin_out(points_at(in_.cloud, points), config_.seed_spacing_m)) {
     const std::uint32_t seed = points[k];
     const std::int32_t s = in_.segments.of_point[seed];
     if (s >= 0 && wanted_[static_cast<std::size_t>(s)] != 0)
-      seeds.push_back({seed, outward_directions(seed, normals.at(seed))});
+      seeds.push_back({seed, outward_directions(seed, face_normal(in_.normals, object, in_.cloud.point(seed),
+                                                                  in_.normals.at(seed)))});
   }
   return seeds;
 }

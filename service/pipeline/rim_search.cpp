@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "service/pipeline/cell_order.hpp"
-#include "service/pipeline/raw_vector.hpp"
+#include "service/pipeline/near_points.hpp"
 
 namespace graspd {
 namespace {
@@ -21,30 +21,11 @@ constexpr float kEdge = 0.005f;       // below the rim, where normals mix both f
 constexpr float kMinFacing = 0.7f;    // cosine between a point's normal and across
 constexpr int kMinStrip = 8;          // points
 
-/// An object's voxels, and which of them are near a place.
-class Wall {
- public:
-  Wall(const SearchInput& in, std::span<const std::uint32_t> points)
-      : in_(in), points_(in.cloud, points), near_(points.size() + kPointPadding) {}
-
-  [[nodiscard]] std::span<const std::uint32_t> near(const Eigen::Vector3f& p, float radius_m) {
-    const PointSpan all{0, static_cast<std::uint32_t>(points_.size())};
-    const std::size_t n = point_kernels().keep_near({p.x(), p.y(), p.z()}, radius_m * radius_m, points_.all(),
-                                                    {&all, 1}, near_.data());
-    return {near_.data(), n};
-  }
-
- private:
-  const SearchInput& in_;
-  PaddedPoints points_;
-  RawVector<std::uint32_t> near_;
-};
-
 /// Where the surface with normal n ends at p: the direction in it away from the rest, if any.
-std::optional<Eigen::Vector3f> end_direction(const SearchInput& in, Wall& wall, const Eigen::Vector3f& p,
-                                             const Eigen::Vector3f& n) {
+std::optional<Eigen::Vector3f> end_direction(const SearchInput& in, NearPoints& wall,
+                                             const Eigen::Vector3f& p, const Eigen::Vector3f& n) {
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-  const std::span<const std::uint32_t> near = wall.near(p, kNear);
+  const std::span<const std::uint32_t> near = wall.within(p, kNear);
   for (const std::uint32_t i : near) sum += in.cloud.point(i) - p;
   const Eigen::Vector3f offset = (sum - sum.dot(n) * n) / static_cast<float>(near.size());
   if (offset.norm() < kMinOffset * kNear) return std::nullopt;
@@ -53,12 +34,12 @@ std::optional<Eigen::Vector3f> end_direction(const SearchInput& in, Wall& wall, 
 
 /// The wall below a rim at p, where the surface has normal n and ends upwards: axes along the rim, across the
 /// wall and down along it. The edge itself says little: normals there mix both faces.
-std::optional<Eigen::Matrix3f> wall_axes(const SearchInput& in, Wall& wall, const Eigen::Vector3f& p,
+std::optional<Eigen::Matrix3f> wall_axes(const SearchInput& in, NearPoints& wall, const Eigen::Vector3f& p,
                                          const Eigen::Vector3f& n, const Eigen::Vector3f& up, float depth_m) {
   const Eigen::Vector3f along = n.cross(up);
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
   int size = 0;
-  for (const std::uint32_t i : wall.near(p, depth_m + kNear)) {
+  for (const std::uint32_t i : wall.within(p, depth_m + kNear)) {
     const Eigen::Vector3f d = in.cloud.point(i) - p, normal = in.normals.at(i);
     const float below = -up.dot(d);
     if (below < kEdge || below > depth_m || std::abs(along.dot(d)) > kMaxAside) continue;
@@ -97,7 +78,7 @@ std::pmr::vector<Candidate> rim_candidates(const SearchInput& in, std::size_t ob
   std::pmr::vector<Candidate> candidates;
   const std::span<const std::uint32_t> points = in.object_points.of(object);
   if (points.empty()) return candidates;
-  Wall wall(in, points);
+  NearPoints wall(in.cloud, points);
   const Eigen::Vector3f up =
       in.support ? in.support->plane.normal : (in.cloud.viewpoint - in.objects.center[object]).normalized();
   for (const std::uint32_t k : highest_points(in, points, up, 0.5f * config.seed_spacing_m)) {

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Which points of an object are near a place, asked for at many places.
+#pragma once
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "service/pipeline/cell_order.hpp"
+#include "service/pipeline/point_cloud.hpp"
+#include "service/pipeline/point_kernels.hpp"
+#include "service/pipeline/raw_vector.hpp"
+
+namespace graspd {
+
+class NearPoints {
+ public:
+  /// points: indices into the cloud, in an order in which those that follow one another are near each other.
+  NearPoints(const PointCloud& cloud, std::span<const std::uint32_t> points);
+
+  /// Indices into the cloud of the points within a distance of p [m], in their order; until the next call.
+  [[nodiscard]] std::span<const std::uint32_t> within(const Eigen::Vector3f& p, float distance_m);
+
+ private:
+  /// Most blocks of a few points are nowhere near a place.
+  static constexpr std::size_t kBlock = 64;
+
+  PaddedPoints points_;
+  std::pmr::vector<Eigen::Array3f> low_, high_;  // of each block
+  std::pmr::vector<PointSpan> spans_;
+  RawVector<std::uint32_t> near_;
+};
+
+}  // namespace graspd
