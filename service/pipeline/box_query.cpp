@@ -98,15 +98,14 @@ struct BoxQuery::Box {
   }
 };
 
-BoxQuery::BoxQuery(const PointCloud& cloud, float cell_m) : cell_m_(cell_m) {
+BoxQuery::BoxQuery(const PointCloud& cloud, const CellOrder& order)
+    : cell_m_(order.cell_m), points_(cloud, order.points) {
   constexpr int kMostGap = 16;  // cells without points within a row: bounds the table, whatever the cloud
-  const CellRuns order = runs_by_cell(cloud, cell_m);
-  points_ = PaddedPoints(cloud, order.runs, cloud.size());
   const std::size_t num_cells = order.num_cells();
-  std::uint32_t position = 0;  // where the cell's points begin
   std::int64_t last_key = std::numeric_limits<std::int64_t>::min() / 2;
   for (std::size_t c = 0; c < num_cells; ++c) {
     const std::int64_t key = order.keys[c];
+    const std::uint32_t position = order.starts[c];
     const Eigen::Vector3i cell = order.cell_of(key);
     const bool same_layer = !layers_.empty() && cell.z() == layers_.back().z;
     const bool goes_on = same_layer && cell.y() == row_y_.back() && key - last_key <= kMostGap;
@@ -121,9 +120,8 @@ BoxQuery::BoxQuery(const PointCloud& cloud, float cell_m) : cell_m_(cell_m) {
     for (std::int32_t& n = row_cells_.back(); n <= cell.x() - row_x_.back(); ++n)
       cell_starts_.push_back(position);
     last_key = key;
-    for (const PointSpan& run : order.cell(c)) position += run.end - run.begin;
   }
-  cell_starts_.push_back(position);
+  cell_starts_.push_back(order.starts.back());
   layers_.push_back({std::numeric_limits<int>::max(), row_y_.size()});
   for (std::pmr::vector<std::int32_t>* v : {&row_y_, &row_x_, &row_cells_})
     v->resize(v->size() + kPointPadding);

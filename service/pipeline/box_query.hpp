@@ -46,7 +46,8 @@ class BoxQuery {
  public:
   BoxQuery() = default;
   /// All points must be finite. cell_m: side of the grid's cells, about a third of the boxes asked for.
-  BoxQuery(const PointCloud& cloud, float cell_m);
+  BoxQuery(const PointCloud& cloud, float cell_m) : BoxQuery(cloud, order_by_cell(cloud, cell_m)) {}
+  BoxQuery(const PointCloud& cloud, const CellOrder& order);
 
   /// Points whose coordinates rotation^T (p - origin) lie in [min, max], in an order fixed by their
   /// positions. Replaces what is in out.

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
+#include <numeric>
 #include <utility>
 
 #include "service/pipeline/cell_runs.hpp"
@@ -20,21 +20,15 @@ struct PartBegin {
   std::uint32_t cell = 0, point = 0;
 };
 
-/// Writes the points of runs [begin, end), and those cells that begin there.
 template <class Key>
-void set_part(const Runs<Key>& runs, std::size_t begin, std::size_t end, PartBegin at, CellOrder& order) {
-  const Run<Key>* list = runs.list.data();
-  std::uint32_t* points = order.points.data();
-  std::int64_t* keys = order.keys.data();
-  std::uint32_t* starts = order.starts.data();
+PartBegin count_part(const Runs<Key>& runs, std::size_t begin, std::size_t end) {
+  const CellRun<Key>* list = runs.list.data();
+  PartBegin sum;
   for (std::size_t r = begin; r < end; ++r) {
-    if (r == 0 || list[r].key != list[r - 1].key) {
-      keys[at.cell] = static_cast<std::int64_t>(list[r].key);
-      starts[at.cell++] = at.point;
-    }
-    const std::uint32_t first = runs.starts[list[r].number], last = runs.starts[list[r].number + 1];
-    for (std::uint32_t i = first; i < last; ++i) points[at.point++] = i;
+    sum.cell += r == 0 || list[r].key != list[r - 1].key ? 1 : 0;
+    sum.point += runs.starts[list[r].number + 1] - runs.starts[list[r].number];
   }
+  return sum;
 }
 
 template <class Key>
@@ -42,56 +36,26 @@ void set_cells(const Runs<Key>& runs, CellOrder& order) {
   const std::size_t n = runs.list.size();
   std::pmr::vector<PartBegin> begins((n + kPart - 1) / kPart);
   for_each_part(n, [&](std::size_t p, std::size_t begin, std::size_t end) {
-    PartBegin sum;
-    for (std::size_t r = begin; r < end; ++r) {
-      const std::uint32_t number = runs.list[r].number;
-      sum.cell += r == 0 || runs.list[r].key != runs.list[r - 1].key ? 1 : 0;
-      sum.point += runs.starts[number + 1] - runs.starts[number];
-    }
-    begins[p] = sum;
+    begins[p] = count_part(runs, begin, end);
   });
   PartBegin sum;
   for (PartBegin& begin : begins) {
     const PartBegin size = std::exchange(begin, sum);
     sum = {sum.cell + size.cell, sum.point + size.point};
   }
+  begins.push_back(sum);
   order.points.resize(sum.point);
   order.keys.resize(sum.cell);
   order.starts.resize(sum.cell + 1);
   for_each_part(n, [&](std::size_t p, std::size_t begin, std::size_t end) {
-    set_part(runs, begin, end, begins[p], order);
+    const CellOutput out{order.keys.data() + begins[p].cell, order.starts.data() + begins[p].cell,
+                         order.points.data(), begins[p].point, begins[p + 1].point};
+    if constexpr (sizeof(Key) == sizeof(std::uint32_t))
+      point_kernels().write_cells(runs.list.data(), begin, end, runs.starts.data(), out);
+    else
+      write_cells(runs.list.data(), begin, end, runs.starts.data(), out);
   });
   order.starts.back() = sum.point;
-}
-
-template <class Key>
-void set_cell_runs(const Runs<Key>& runs, CellRuns& cells) {
-  const Run<Key>* list = runs.list.data();
-  const std::size_t n = runs.list.size();
-  std::pmr::vector<std::uint32_t> begins((n + kPart - 1) / kPart);
-  for_each_part(n, [&](std::size_t p, std::size_t begin, std::size_t end) {
-    std::uint32_t num = begin == 0 ? 1 : 0;
-    for (std::size_t r = std::max<std::size_t>(1, begin); r < end; ++r)
-      num += list[r].key != list[r - 1].key ? 1 : 0;
-    begins[p] = num;
-  });
-  cells.runs.resize(n);
-  cells.keys.resize(set_begins(begins));
-  cells.starts.resize(cells.keys.size() + 1);
-  for_each_part(n, [&](std::size_t p, std::size_t begin, std::size_t end) {
-    const std::uint32_t* first = runs.starts.data();
-    std::uint32_t* next = cells.starts.data() + begins[p];
-    std::int64_t* keys = cells.keys.data() + begins[p];
-    PointSpan* spans = cells.runs.data();
-    for (std::size_t r = begin; r < end; ++r) {
-      if (r == 0 || list[r].key != list[r - 1].key) {
-        *next++ = static_cast<std::uint32_t>(r);
-        *keys++ = static_cast<std::int64_t>(list[r].key);
-      }
-      spans[r] = {first[list[r].number], first[list[r].number + 1]};
-    }
-  });
-  cells.starts.back() = static_cast<std::uint32_t>(n);
 }
 
 /// Number of cells on an axis, with one to spare at either end; min: the first.
@@ -131,44 +95,29 @@ Runs<Key> sorted_runs(const PointCloud& cloud, float per_cell, int num_bits, con
   return runs;
 }
 
-/// Sets where the grid lies, and calls use(runs) with the sorted runs of its cells. There must be points.
-template <class Use>
-void sort_into_cells(const PointCloud& cloud, float cell_m, CellKeys& order, Use use) {
-  const float per_cell = 1.0f / cell_m;
+}  // namespace
+
+CellOrder order_by_cell(const PointCloud& cloud, float cell_m) {
+  CellOrder order;
   order.cell_m = cell_m;
+  order.starts = {0};
+  if (cloud.empty()) return order;
+  const float per_cell = 1.0f / cell_m;
   Eigen::Vector3i& min = order.min_cell;
   order.row = cell_range(cloud.x, per_cell, min.x());
   order.layer = order.row * cell_range(cloud.y, per_cell, min.y());
   const std::int64_t num_keys = order.layer * cell_range(cloud.z, per_cell, min.z());
   const int num_bits = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(num_keys)));
   if (num_bits <= 32)
-    use(sorted_runs<std::uint32_t>(cloud, per_cell, num_bits, order));
+    set_cells(sorted_runs<std::uint32_t>(cloud, per_cell, num_bits, order), order);
   else
-    use(sorted_runs<std::uint64_t>(cloud, per_cell, num_bits, order));
-}
-
-}  // namespace
-
-CellOrder order_by_cell(const PointCloud& cloud, float cell_m) {
-  CellOrder order;
-  if (cloud.empty()) {
-    order.cell_m = cell_m;
-    order.starts = {0};
-    return order;
-  }
-  sort_into_cells(cloud, cell_m, order, [&order](const auto& runs) { set_cells(runs, order); });
+    set_cells(sorted_runs<std::uint64_t>(cloud, per_cell, num_bits, order), order);
   return order;
 }
 
-CellRuns runs_by_cell(const PointCloud& cloud, float cell_m) {
-  CellRuns cells;
-  if (cloud.empty()) {
-    cells.cell_m = cell_m;
-    cells.starts = {0};
-    return cells;
-  }
-  sort_into_cells(cloud, cell_m, cells, [&cells](const auto& runs) { set_cell_runs(runs, cells); });
-  return cells;
+CellOrder in_order(CellOrder order) {
+  std::iota(order.points.begin(), order.points.end(), 0u);
+  return order;
 }
 
 PaddedPoints::PaddedPoints(const PointCloud& cloud, std::span<const std::uint32_t> order)
@@ -176,56 +125,24 @@ PaddedPoints::PaddedPoints(const PointCloud& cloud, std::span<const std::uint32_
       y_(order.size() + kPointPadding),
       z_(order.size() + kPointPadding),
       index_(order.size() + kPointPadding) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, order.size(), 8192), [&](const auto& range) {
-    for (std::size_t k = range.begin(); k != range.end(); ++k) {
-      const std::uint32_t i = order[k];
-      x_[k] = cloud.x[i];
-      y_[k] = cloud.y[i];
-      z_[k] = cloud.z[i];
-      index_[k] = i;
-    }
+  const PointRange points{cloud.x.data(), cloud.y.data(), cloud.z.data(), nullptr, cloud.size()};
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, order.size(), 16384), [&](const auto& range) {
+    const std::size_t k = range.begin();
+    point_kernels().copy_at(points, order.subspan(k, range.size()),
+                            {x_.data() + k, y_.data() + k, z_.data() + k, index_.data() + k});
   });
-  pad();
-}
-
-PaddedPoints::PaddedPoints(const PointCloud& cloud, std::span<const PointSpan> runs, std::size_t num_points)
-    : x_(num_points + kPointPadding),
-      y_(num_points + kPointPadding),
-      z_(num_points + kPointPadding),
-      index_(num_points + kPointPadding) {
-  const float *xs = cloud.x.data(), *ys = cloud.y.data(), *zs = cloud.z.data();
-  float *x = x_.data(), *y = y_.data(), *z = z_.data();
-  std::uint32_t* index = index_.data();
-  const std::size_t last_block = cloud.size() < kPointPadding ? 0 : cloud.size() - kPointPadding + 1;
-  for (const PointSpan& run : runs) {
-    std::size_t i = run.begin, to = 0;
-    // In blocks, of which the last one brings some of what follows in the cloud: the next run overwrites it.
-    constexpr std::size_t kShort = 3;
-    if (run.end - run.begin > kShort)
-      for (; i < run.end && i < last_block; i += kPointPadding, to += kPointPadding) {
-        std::memcpy(x + to, xs + i, kPointPadding * sizeof(float));
-        std::memcpy(y + to, ys + i, kPointPadding * sizeof(float));
-        std::memcpy(z + to, zs + i, kPointPadding * sizeof(float));
-        for (std::size_t k = 0; k < kPointPadding; ++k) index[to + k] = static_cast<std::uint32_t>(i + k);
-      }
-    for (; i < run.end; ++i, ++to) {
-      x[to] = xs[i];
-      y[to] = ys[i];
-      z[to] = zs[i];
-      index[to] = static_cast<std::uint32_t>(i);
-    }
-    const std::size_t size = run.end - run.begin;
-    x += size;
-    y += size;
-    z += size;
-    index += size;
-  }
-  pad();
-}
-
-void PaddedPoints::pad() {
   for (RawVector<float>* v : {&x_, &y_, &z_}) std::fill_n(v->end() - kPointPadding, kPointPadding, 0.0f);
   std::fill_n(index_.end() - kPointPadding, kPointPadding, 0u);
+}
+
+PointCloud points_at(const PointCloud& cloud, std::span<const std::uint32_t> indices) {
+  PointCloud points;
+  points.viewpoint = cloud.viewpoint;
+  points.resize(indices.size());
+  points.width = static_cast<int>(indices.size());
+  point_kernels().copy_at({cloud.x.data(), cloud.y.data(), cloud.z.data(), nullptr, cloud.size()}, indices,
+                          {points.x.data(), points.y.data(), points.z.data(), nullptr});
+  return points;
 }
 
 }  // namespace graspd

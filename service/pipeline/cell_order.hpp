@@ -40,24 +40,21 @@ struct CellOrder : CellKeys {
   [[nodiscard]] std::span<const std::uint32_t> cell(std::size_t c) const {
     return {points.data() + starts[c], points.data() + starts[c + 1]};
   }
-};
-
-/// The same order as runs of points that follow one another in the cloud: images and sorted voxels have long
-/// ones.
-struct CellRuns : CellKeys {
-  RawVector<PointSpan> runs;        ///< of points of the cloud, by key, then by point
-  RawVector<std::uint32_t> starts;  ///< keys.size() + 1 positions in runs where a cell begins
-
-  [[nodiscard]] std::span<const PointSpan> cell(std::size_t c) const {
-    return {runs.data() + starts[c], runs.data() + starts[c + 1]};
+  /// Cells [begin, end) of the cloud that the order is of.
+  [[nodiscard]] CellPoints of(const PointCloud& cloud, std::size_t begin, std::size_t end) const {
+    return {cloud.x.data(), cloud.y.data(),        cloud.z.data(),
+            points.data(),  starts.data() + begin, end - begin};
   }
 };
 
 /// All points must be finite, and the cloud's extent less than 2^20 cells on each axis.
 [[nodiscard]] CellOrder order_by_cell(const PointCloud& cloud, float cell_m);
 
-/// Points as for order_by_cell().
-[[nodiscard]] CellRuns runs_by_cell(const PointCloud& cloud, float cell_m);
+/// The order of the same points once they have been put into it.
+[[nodiscard]] CellOrder in_order(CellOrder order);
+
+/// The points with these indices, as an unorganized cloud.
+[[nodiscard]] PointCloud points_at(const PointCloud& cloud, std::span<const std::uint32_t> indices);
 
 /// Points of a cloud in an order of one's own, for the kernels.
 class PaddedPoints {
@@ -65,8 +62,6 @@ class PaddedPoints {
   PaddedPoints() = default;
   /// order: indices into the cloud.
   PaddedPoints(const PointCloud& cloud, std::span<const std::uint32_t> order);
-  /// The points of the runs, which are so many.
-  PaddedPoints(const PointCloud& cloud, std::span<const PointSpan> runs, std::size_t num_points);
 
   [[nodiscard]] std::size_t size() const { return x_.size() - kPointPadding; }
   /// Those at positions [from, to) of the order.
@@ -76,8 +71,6 @@ class PaddedPoints {
   [[nodiscard]] PointRange all() const { return range(0, size()); }
 
  private:
-  void pad();
-
   RawVector<float> x_, y_, z_;
   RawVector<std::uint32_t> index_;
 };

@@ -1,16 +1,19 @@
 // SPDX-FileCopyrightText: 2026 The graspd authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs of points in one cell, and how they are sorted by it. Included by cell_order.cpp alone.
+// Runs of points in one cell, and how they are sorted by it. Included by cell_order.cpp and the
+// kernels that do parts of it alone.
 #pragma once
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
 #include <utility>
 #include <vector>
 
+#include "service/pipeline/point_kernels.hpp"
 #include "service/pipeline/raw_vector.hpp"
 
 namespace graspd {
@@ -35,31 +38,30 @@ std::size_t set_begins(Sizes& sizes) {
 /// Points of one cell that follow one another in the cloud: images and sorted voxels have long ones, which
 /// are sorted as one.
 template <class Key>
-struct Run {
-  Key key;
-  std::uint32_t number;
-};
-
-template <class Key>
 struct Runs {
-  RawVector<Run<Key>> list;
+  RawVector<CellRun<Key>> list;
   RawVector<std::uint32_t> starts;  // first point of each by its number; one more at the end
 };
 
-/// Runs among points [begin, end), numbered from r on. The first point begins one, whatever comes before it.
+/// Keys that differ from the one before; the first one begins a run, too.
 template <class Key>
-void write_runs(const Key* keys, std::size_t begin, std::size_t end, std::uint32_t r, Runs<Key>& runs) {
-  Run<Key>* list = runs.list.data();
-  std::uint32_t* starts = runs.starts.data();
-  auto start = static_cast<std::uint32_t>(begin);
-  Key last = keys[begin];
-  for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
-    const Key key = keys[i];
-    r += key != last ? 1 : 0;
-    start = key != last ? i : start;
-    last = key;
-    list[r] = {key, r};
-    starts[r] = start;
+std::size_t count_runs(const Key* keys, std::size_t n) {
+  if constexpr (sizeof(Key) == sizeof(std::uint32_t)) return 1 + point_kernels().count_changes(keys, n);
+  std::size_t num = 1;
+  for (std::size_t i = 1; i < n; ++i) num += keys[i] != keys[i - 1] ? 1 : 0;
+  return num;
+}
+
+/// The runs among keys [begin, end), the first of which has the number r.
+template <class Key>
+void write_runs(const Key* keys, std::size_t begin, std::size_t end, std::size_t r, Runs<Key>& runs) {
+  CellRun<Key>* list = runs.list.data();
+  runs.starts[r] = static_cast<std::uint32_t>(begin);
+  list[r] = {keys[begin], static_cast<std::uint32_t>(r)};
+  for (std::size_t i = begin + 1; i < end; ++i) {
+    if (keys[i] == keys[i - 1]) continue;
+    runs.starts[++r] = static_cast<std::uint32_t>(i);
+    list[r] = {keys[i], static_cast<std::uint32_t>(r)};
   }
 }
 
@@ -68,19 +70,37 @@ Runs<Key> find_runs(const RawVector<Key>& keys) {
   const std::size_t n = keys.size();
   std::pmr::vector<std::uint32_t> begins((n + kPart - 1) / kPart);
   for_each_part(n, [&](std::size_t p, std::size_t begin, std::size_t end) {
-    const Key* key = keys.data();
-    std::uint32_t num = 1;
-    for (std::size_t i = begin + 1; i < end; ++i) num += key[i] != key[i - 1] ? 1 : 0;
-    begins[p] = num;
+    begins[p] = static_cast<std::uint32_t>(count_runs(keys.data() + begin, end - begin));
   });
   Runs<Key> runs;
-  runs.list.resize(set_begins(begins));
-  runs.starts.resize(runs.list.size() + 1);
+  const std::size_t num_runs = set_begins(begins);
+  runs.list.resize(num_runs);
+  runs.starts.resize(num_runs + 1);
+  begins.push_back(static_cast<std::uint32_t>(num_runs));
   for_each_part(n, [&](std::size_t p, std::size_t begin, std::size_t end) {
-    write_runs(keys.data(), begin, end, begins[p], runs);
+    if constexpr (sizeof(Key) == sizeof(std::uint32_t))
+      point_kernels().write_runs(keys.data(), begin, end,
+                                 {runs.list.data(), runs.starts.data(), begins[p], begins[p + 1]});
+    else
+      write_runs(keys.data(), begin, end, begins[p], runs);
   });
   runs.starts.back() = static_cast<std::uint32_t>(n);
   return runs;
+}
+
+/// Writes the points of sorted runs [begin, end), and those cells that begin there. firsts: first point of
+/// each run by its number; one more at the end.
+template <class Key>
+void write_cells(const CellRun<Key>* list, std::size_t begin, std::size_t end, const std::uint32_t* firsts,
+                 CellOutput out) {
+  std::uint32_t at = out.first;
+  for (std::size_t r = begin; r < end; ++r) {
+    if (r == 0 || list[r].key != list[r - 1].key) {
+      *out.keys++ = static_cast<std::int64_t>(list[r].key);
+      *out.starts++ = at;
+    }
+    for (std::uint32_t i = firsts[list[r].number]; i != firsts[list[r].number + 1]; ++i) out.points[at++] = i;
+  }
 }
 
 /// One pass of a stable radix sort of runs over one digit of their keys, in parts that can run beside each
@@ -95,11 +115,12 @@ class DigitPass {
         next_(num_parts_ * num_values_) {}
 
   template <class Key>
-  void move(int place, const Run<Key>* from, Run<Key>* to) {
+  void move(int place, const CellRun<Key>* from, CellRun<Key>* to) {
     const int shift = place * bits_;
     const Key mask = static_cast<Key>(num_values_ - 1);
     for_each([=, this](std::uint32_t* next, std::size_t begin, std::size_t end) {
       std::fill_n(next, num_values_, 0u);
+#pragma GCC unroll 4
       for (std::size_t i = begin; i < end; ++i) ++next[(from[i].key >> shift) & mask];
     });
     // By value, then by part.
@@ -107,6 +128,7 @@ class DigitPass {
     for (std::size_t value = 0; value < num_values_; ++value)
       for (std::size_t p = 0; p < num_parts_; ++p) sum += std::exchange(next_[p * num_values_ + value], sum);
     for_each([=](std::uint32_t* next, std::size_t begin, std::size_t end) {
+#pragma GCC unroll 4
       for (std::size_t i = begin; i < end; ++i) to[next[(from[i].key >> shift) & mask]++] = from[i];
     });
   }
@@ -133,13 +155,14 @@ class DigitPass {
 
 /// By key; stable. Radix sort, least significant digit first, over the lowest num_bits.
 template <class Key>
-void sort_by_key(RawVector<Run<Key>>& runs, int num_bits) {
+void sort_by_key(RawVector<CellRun<Key>>& runs, int num_bits) {
   // Points that come from voxels of the same grid, for example.
-  if (std::ranges::is_sorted(runs, {}, &Run<Key>::key)) return;
-  constexpr int kMostBits = 13;  // counts of all values stay in the first-level cache
-  const int num_places = std::max(1, (num_bits + kMostBits - 1) / kMostBits);
+  if (std::ranges::is_sorted(runs, {}, &CellRun<Key>::key)) return;
+  // No more values than runs, and no more of them than stay in the second-level cache.
+  const int most_bits = std::clamp(static_cast<int>(std::bit_width(runs.size())), 8, 15);
+  const int num_places = std::max(1, (num_bits + most_bits - 1) / most_bits);
   DigitPass pass(runs.size(), (num_bits + num_places - 1) / num_places);
-  RawVector<Run<Key>> sorted(runs.size());
+  RawVector<CellRun<Key>> sorted(runs.size());
   for (int place = 0; place < num_places; ++place) {
     pass.move(place, runs.data(), sorted.data());
     runs.swap(sorted);

@@ -23,20 +23,18 @@ struct Wall {
   float top_m;  // height above the support
 };
 
-float flatness(const PointCloud& cloud, const Segment& segment) {
-  float squares = 0;
-  for (const std::uint32_t i : segment.points) {
-    const float d = segment.normal.dot(cloud.point(i) - segment.centroid);
-    squares += d * d;
-  }
-  return std::sqrt(squares / static_cast<float>(segment.points.size()));
+/// The value that so many others come before; reorders them.
+float nth(std::pmr::vector<float>& values, std::size_t n) {
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>(n);
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
 }
 
 /// Length of the middle part of some numbers; reorders them.
 float trimmed_length(std::pmr::vector<float>& values) {
-  std::sort(values.begin(), values.end());
+  if (values.empty()) return 0;
   const auto skip = static_cast<std::size_t>(kTrimmed * static_cast<float>(values.size()));
-  return values.empty() ? 0.0f : values[values.size() - 1 - skip] - values[skip];
+  return nth(values, values.size() - 1 - skip) - nth(values, skip);
 }
 
 /// Whether more than so many points lie well before the face, and as many well behind it.
@@ -84,31 +82,53 @@ bool is_thick(const PointRange& standing, const Support& support, const Wall& wa
   return static_cast<float>(thick) > kMostThick * static_cast<float>(num_bins);
 }
 
+/// The points near a face: how far along it they lie, and how high above the support.
+struct NearPoints {
+  std::pmr::vector<float> lengths, heights;
+};
+
+NearPoints points_near(const PointRange& points, const Plane& face, const Support& support,
+                       float thickness_m) {
+  constexpr std::size_t kBlock = 8;  // most blocks have no such point, which vectors tell at once
+  const Eigen::Vector3f along = support.plane.normal.cross(face.normal);
+  const float nx = face.normal.x(), ny = face.normal.y(), nz = face.normal.z(), offset = face.offset_m;
+  NearPoints found;
+  for (std::size_t from = 0; from < points.size; from += kBlock) {
+    const float *x = points.x + from, *y = points.y + from, *z = points.z + from;
+    float d[kBlock];
+    int any = 0;
+    for (std::size_t k = 0; k < kBlock; ++k) {
+      d[k] = std::abs(nx * x[k] + (ny * y[k] + nz * z[k]) + offset);  // as Plane::height() has it
+      any |= d[k] <= thickness_m ? 1 : 0;
+    }
+    if (any == 0) continue;
+    for (std::size_t k = 0; k < std::min(kBlock, points.size - from); ++k) {
+      if (d[k] > thickness_m) continue;
+      const Eigen::Vector3f p(x[k], y[k], z[k]);
+      found.lengths.push_back(along.dot(p));
+      found.heights.push_back(support.plane.height(p));
+    }
+  }
+  return found;
+}
+
 /// Whether the face is long and high enough, and has nearly all points on one side.
 bool is_wall(const PointRange& standing, const Support& support, const ContainerConfig& config, Wall& wall) {
   const auto most = static_cast<std::size_t>(config.max_outside_share * static_cast<float>(standing.size));
   if (stands_among(standing, wall.face, most)) return false;
-  const Eigen::Vector3f along = support.plane.normal.cross(wall.face.normal);
-  std::pmr::vector<float> lengths, heights;
-  for (std::size_t k = 0; k < standing.size; ++k) {
-    const Eigen::Vector3f p(standing.x[k], standing.y[k], standing.z[k]);
-    if (std::abs(wall.face.height(p)) > config.thickness_m) continue;
-    lengths.push_back(along.dot(p));
-    heights.push_back(support.plane.height(p));
-  }
-  if (trimmed_length(lengths) < config.min_length_m) return false;
-  if (trimmed_length(heights) < 0.7f * config.min_height_m) return false;
-  wall.top_m = heights[heights.size() - 1 - heights.size() / 50];
+  NearPoints near = points_near(standing, wall.face, support, config.thickness_m);
+  if (trimmed_length(near.lengths) < config.min_length_m) return false;
+  if (trimmed_length(near.heights) < 0.7f * config.min_height_m) return false;
+  wall.top_m = nth(near.heights, near.heights.size() - 1 - near.heights.size() / 50);
   return wall.top_m >= config.min_height_m && !is_thick(standing, support, wall, config.thickness_m);
 }
 
-std::pmr::vector<Wall> find_walls(const PointCloud& cloud, const Segments& segments,
-                                  const PointRange& standing, const Support& support,
-                                  const ContainerConfig& config) {
+std::pmr::vector<Wall> find_walls(const Segments& segments, const PointRange& standing,
+                                  const Support& support, const ContainerConfig& config) {
   std::pmr::vector<Wall> walls;
   for (const Segment& segment : segments.list) {
     const float lean = segment.normal.dot(support.plane.normal);
-    if (std::abs(lean) > kMaxLean || flatness(cloud, segment) > kMaxScatter) continue;
+    if (std::abs(lean) > kMaxLean || segment.scatter_m > kMaxScatter) continue;
     const Eigen::Vector3f normal = (segment.normal - lean * support.plane.normal).normalized();
     Wall wall{{normal, -normal.dot(segment.centroid)}, 0};
     if (is_wall(standing, support, config, wall)) walls.push_back(wall);
@@ -131,7 +151,7 @@ std::pmr::vector<std::uint8_t> find_container(const PointCloud& cloud, const Seg
   if (!config.enabled) return {};
   const RawVector<std::uint32_t> standing = unmarked(support.is_support);
   const PaddedPoints points(cloud, standing);
-  std::pmr::vector<Wall> walls = find_walls(cloud, segments, points.all(), support, config);
+  std::pmr::vector<Wall> walls = find_walls(segments, points.all(), support, config);
   const std::pmr::vector<Wall> all = walls;
   std::erase_if(walls, [&](const Wall& wall) {
     return std::none_of(all.begin(), all.end(), [&](const Wall& other) {

@@ -28,33 +28,25 @@ Eigen::Matrix3f looking_along(const Eigen::Vector3f& forward) {
 
 constexpr std::size_t kBlock = 128;
 
-/// Some points in the axes of the view; plain loops that the compiler can use vectors for.
+/// Some points in the axes of the view.
 struct ViewBlock {
   std::size_t size;
   float x[kBlock], y[kBlock], z[kBlock];
 
-  ViewBlock(const Eigen::Matrix3f& to_view, const Eigen::Vector3f& viewpoint, const PointCloud& cloud,
-            std::size_t from)
+  ViewBlock(const ViewImage& view, const PointCloud& cloud, std::size_t from)
       : size(std::min(kBlock, cloud.size() - from)) {
-    const float *px = cloud.x.data() + from, *py = cloud.y.data() + from, *pz = cloud.z.data() + from;
-    const float ox = viewpoint.x(), oy = viewpoint.y(), oz = viewpoint.z();
-    const auto row = [&to_view](int i) { return Eigen::Vector3f(to_view.row(i)); };
-    const Eigen::Vector3f right = row(0), down = row(1), forward = row(2);
-    for (std::size_t k = 0; k < size; ++k) {
-      const float dx = px[k] - ox, dy = py[k] - oy, dz = pz[k] - oz;
-      x[k] = right[0] * dx + right[1] * dy + right[2] * dz;
-      y[k] = down[0] * dx + down[1] * dy + down[2] * dz;
-      z[k] = forward[0] * dx + forward[1] * dy + forward[2] * dz;
-    }
+    point_kernels().see_points(
+        view, {cloud.x.data() + from, cloud.y.data() + from, cloud.z.data() + from, nullptr, size}, points());
   }
+  [[nodiscard]] ViewPoints points() { return {x, y, z}; }
 };
 
-/// Of the unit vectors from the viewpoint to the points.
-Eigen::Vector3f sum_of_directions(const PointCloud& cloud) {
+/// Of the unit vectors from the viewpoint to the points. view: along the axes of the cloud.
+Eigen::Vector3f sum_of_directions(const ViewImage& view, const PointCloud& cloud) {
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
   float length[kBlock];
   for (std::size_t from = 0; from < cloud.size(); from += kBlock) {
-    const ViewBlock block(Eigen::Matrix3f::Identity(), cloud.viewpoint, cloud, from);
+    const ViewBlock block(view, cloud, from);
     for (std::size_t k = 0; k < block.size; ++k) {
       const float squared = block.x[k] * block.x[k] + block.y[k] * block.y[k] + block.z[k] * block.z[k];
       length[k] = squared > 0 ? std::sqrt(squared) : 1.0f;
@@ -104,10 +96,9 @@ void DepthMap::take_image(const PointCloud& cloud, const ImagePixels& pixels, co
   depth_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
   point_.resize(depth_.size());
   std::uint32_t next = 0;  // the first pixel that is not set
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
+  for (std::size_t i = 0; i < cloud.size();) {
     const std::uint32_t at = pixels.of_point[i] - first_row * width;
-    depth_[at] = cloud.z[i] - viewpoint_.z();
-    point_[at] = static_cast<std::int32_t>(i);
+    const std::uint32_t size = take_pixels(cloud, pixels, i, at);
     if (at != next) {
       const bool is_in_row = next % width != 0 && next / width == at / width;
       if (is_in_row && at - next < max_gap)
@@ -115,7 +106,8 @@ void DepthMap::take_image(const PointCloud& cloud, const ImagePixels& pixels, co
       else
         fill(next, at, 0, kFree);
     }
-    next = at + 1;
+    i += size;
+    next = at + size;
   }
   fill(next, depth_.size(), 0, kFree);
   const auto [first_column, last_column] = column_range(pixels);
@@ -123,8 +115,27 @@ void DepthMap::take_image(const PointCloud& cloud, const ImagePixels& pixels, co
   point_area_ = seen / (static_cast<float>(cloud.size()) * focal_u_ * focal_v_);
 }
 
+std::uint32_t DepthMap::take_pixels(const PointCloud& cloud, const ImagePixels& pixels, std::size_t i,
+                                    std::uint32_t at) {
+  constexpr std::uint32_t kAtOnce = 16;
+  const bool are_many =
+      i + kAtOnce <= cloud.size() && pixels.of_point[i + kAtOnce - 1] == pixels.of_point[i] + kAtOnce - 1;
+  const float *z = cloud.z.data() + i, origin = viewpoint_.z();
+  float* depth = depth_.data() + at;
+  std::int32_t* point = point_.data() + at;
+  const auto first = static_cast<std::int32_t>(i);
+  if (!are_many) {
+    *depth = *z - origin;
+    *point = first;
+    return 1;
+  }
+  for (std::uint32_t k = 0; k < kAtOnce; ++k) depth[k] = z[k] - origin;
+  for (std::uint32_t k = 0; k < kAtOnce; ++k) point[k] = first + static_cast<std::int32_t>(k);
+  return kAtOnce;
+}
+
 void DepthMap::render(const PointCloud& cloud) {
-  const Eigen::Vector3f sum = sum_of_directions(cloud);
+  const Eigen::Vector3f sum = sum_of_directions(view(), cloud);
   if (sum.norm() < 1e-3f) return;
   to_view_ = looking_along(sum.normalized());
 
@@ -132,7 +143,7 @@ void DepthMap::render(const PointCloud& cloud) {
   const PointKernels& kernels = point_kernels();
   float u[kBlock], v[kBlock];
   for (std::size_t from = 0; from < cloud.size(); from += kBlock) {
-    const ViewBlock block(to_view_, viewpoint_, cloud, from);
+    const ViewBlock block(view(), cloud, from);
     for (std::size_t k = 0; k < block.size; ++k) {
       // NaN takes no part in the bounds.
       const float z = block.z[k] > 0 ? block.z[k] : std::numeric_limits<float>::quiet_NaN();
@@ -168,21 +179,16 @@ void DepthMap::splat(const PointCloud& cloud) {
   const auto size = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
   depth_.assign(size, 0);
   point_.assign(size, kFree);
-  float u[kBlock], v[kBlock];
+  std::int32_t pixel[kBlock];
   for (std::size_t from = 0; from < cloud.size(); from += kBlock) {
-    const ViewBlock block(to_view_, viewpoint_, cloud, from);
+    ViewBlock block(view(), cloud, from);
+    point_kernels().find_pixels(view(), block.points(), block.size, pixel);
     for (std::size_t k = 0; k < block.size; ++k) {
-      u[k] = column(block.x[k], block.z[k]);
-      v[k] = row(block.y[k], block.z[k]);
-    }
-    for (std::size_t k = 0; k < block.size; ++k) {
-      const float depth = block.z[k];
-      const std::int64_t at = pixel(u[k], v[k], depth);
-      if (at < 0) continue;
-      float& nearest = depth_[static_cast<std::size_t>(at)];
-      if (nearest != 0 && nearest <= depth) continue;
-      nearest = depth;
-      point_[static_cast<std::size_t>(at)] = static_cast<std::int32_t>(from + k);
+      if (pixel[k] < 0) continue;
+      const auto at = static_cast<std::size_t>(pixel[k]);
+      if (depth_[at] != 0 && depth_[at] <= block.z[k]) continue;
+      depth_[at] = block.z[k];
+      point_[at] = static_cast<std::int32_t>(from + k);
     }
   }
 }
@@ -211,6 +217,20 @@ void DepthMap::fill(std::size_t from, std::size_t to, float depth, std::int32_t 
   std::fill(point_.data() + from, point_.data() + to, point);
 }
 
+ViewImage DepthMap::view() const {
+  ViewImage view{{viewpoint_.x(), viewpoint_.y(), viewpoint_.z()},
+                 {},
+                 {focal_u_, focal_v_},
+                 {center_u_, center_v_},
+                 width_,
+                 height_,
+                 depth_.data(),
+                 point_.data()};
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) view.axes[i][j] = to_view_(i, j);
+  return view;
+}
+
 float DepthMap::ray_area(const Eigen::Vector3f& p) const {
   const float depth = to_view_.row(2).dot(p - viewpoint_);
   return depth * depth * point_area_;
@@ -229,17 +249,7 @@ std::int32_t DepthMap::hider(const Eigen::Vector3f& p, float margin_m) const {
 void DepthMap::find_hiders(const Probes& places, float margin_m, std::int32_t (&hiders)[kProbes]) const {
   std::fill_n(hiders, kProbes, kFree);
   if (depth_.empty()) return;
-  ViewImage image{{viewpoint_.x(), viewpoint_.y(), viewpoint_.z()},
-                  {},
-                  {focal_u_, focal_v_},
-                  {center_u_, center_v_},
-                  width_,
-                  height_,
-                  depth_.data(),
-                  point_.data()};
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) image.axes[i][j] = to_view_(i, j);
-  point_kernels().find_hiders(image, places, margin_m, hiders);
+  point_kernels().find_hiders(view(), places, margin_m, hiders);
 }
 
 }  // namespace graspd

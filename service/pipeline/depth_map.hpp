@@ -31,21 +31,16 @@ class DepthMap {
 
  private:
   void take_image(const PointCloud& cloud, const ImagePixels& pixels, const PinholeModel& camera);
+  /// Takes point i and those after it that lie in the next pixels, from the pixel on; returns how many.
+  std::uint32_t take_pixels(const PointCloud& cloud, const ImagePixels& pixels, std::size_t i,
+                            std::uint32_t at);
   void render(const PointCloud& cloud);
   void splat(const PointCloud& cloud);
   void close_gaps(int max_gap);
   /// Pixels [from, to) of a row, where nothing is seen, between two where something is.
   void close_gap(std::size_t from, std::size_t to);
   void fill(std::size_t from, std::size_t to, float depth, std::int32_t point);
-  /// Where a point with these coordinates in the axes of the view falls on the image [pixels].
-  [[nodiscard]] float column(float x, float z) const { return focal_u_ * x / z + center_u_ + 0.5f; }
-  [[nodiscard]] float row(float y, float z) const { return focal_v_ * y / z + center_v_ + 0.5f; }
-  /// Position of that pixel in the image; negative outside of it and behind the sensor.
-  [[nodiscard]] std::int64_t pixel(float column, float row, float depth) const {
-    const bool is_inside = depth > 0 && column >= 0 && row >= 0 && column < static_cast<float>(width_) &&
-                           row < static_cast<float>(height_);
-    return is_inside ? std::int64_t{static_cast<int>(row)} * width_ + static_cast<int>(column) : -1;
-  }
+  [[nodiscard]] ViewImage view() const;
 
   Eigen::Vector3f viewpoint_;
   Eigen::Matrix3f to_view_;  // rows: right, down, forward

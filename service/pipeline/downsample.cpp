@@ -11,37 +11,20 @@ namespace graspd {
 
 namespace {
 
-/// Means of the points of cells [begin, end).
-void set_means(const PointCloud& cloud, const CellRuns& cells, std::size_t begin, std::size_t end,
+/// Means of the points of cells [begin, end), and whose points they are.
+void set_means(const PointCloud& cloud, const CellOrder& cells, std::size_t begin, std::size_t end,
                Downsampled& out) {
-  const float *xs = cloud.x.data(), *ys = cloud.y.data(), *zs = cloud.z.data();
+  point_kernels().set_means(cells.of(cloud, begin, end), out.cloud.x.data() + begin,
+                            out.cloud.y.data() + begin, out.cloud.z.data() + begin);
+  const std::uint32_t* point = cells.points.data() + cells.starts[begin];
   std::uint32_t* voxel = out.voxel_of_point.data();
-  for (std::size_t c = begin; c < end; ++c) {
-    const std::span<const PointSpan> runs = cells.cell(c);
-    // Sums relative to the voxel's first point: no loss of digits far from the origin.
-    const std::uint32_t first = runs.front().begin;
-    const float x = xs[first], y = ys[first], z = zs[first];
-    float sum_x = 0, sum_y = 0, sum_z = 0;
-    std::uint32_t num = 0;
-    for (const PointSpan& run : runs) {
-      num += run.end - run.begin;
-      std::uint32_t i = run.begin;
-      do {
-        sum_x += xs[i] - x;
-        sum_y += ys[i] - y;
-        sum_z += zs[i] - z;
-        voxel[i] = static_cast<std::uint32_t>(c);
-      } while (++i != run.end);
-    }
-    const auto n = static_cast<float>(num);
-    out.cloud.x[c] = x + sum_x / n;
-    out.cloud.y[c] = y + sum_y / n;
-    out.cloud.z[c] = z + sum_z / n;
-  }
+  for (std::size_t c = begin; c < end; ++c)
+    for (std::uint32_t left = cells.starts[c + 1] - cells.starts[c]; left > 0; --left)
+      voxel[*point++] = static_cast<std::uint32_t>(c);
 }
 
 Downsampled thin_by_voxels(const PointCloud& cloud, float leaf_size_m) {
-  const CellRuns cells = runs_by_cell(cloud, leaf_size_m);
+  const CellOrder cells = order_by_cell(cloud, leaf_size_m);
   Downsampled result;
   PointCloud& voxels = result.cloud;
   voxels.viewpoint = cloud.viewpoint;

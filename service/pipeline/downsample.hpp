@@ -3,12 +3,11 @@
 // One point for each occupied voxel, or for each block of an image's pixels: the mean of the points in it.
 #pragma once
 #include <cstdint>
-#include <memory_resource>
-#include <vector>
 
 #include "service/pipeline/config_fields.hpp"
 #include "service/pipeline/pinhole_fit.hpp"
 #include "service/pipeline/point_cloud.hpp"
+#include "service/pipeline/raw_vector.hpp"
 
 namespace graspd {
 
@@ -26,7 +25,7 @@ struct DownsampleConfig {
 
 struct Downsampled {
   PointCloud cloud;  ///< one point a voxel, unorganized; by rows of voxels or of the image
-  std::pmr::vector<std::uint32_t> voxel_of_point;  ///< for each input point the index of its voxel's point
+  RawVector<std::uint32_t> voxel_of_point;  ///< for each input point the index of its voxel's point
 };
 
 /// All points must be finite. pixels: of the cloud's points, where it is part of an image.

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <utility>
@@ -150,8 +151,9 @@ FarSides find_far_sides(const Surfaces& surfaces, const DepthMap& depth_map) {
     }
     wall = {};
   }
-  const PointSpan all{0, static_cast<std::uint32_t>(sides.cloud.size())};
-  sides.padded = PaddedPoints(sides.cloud, {&all, 1}, sides.cloud.size());
+  std::pmr::vector<std::uint32_t> all(sides.cloud.size());
+  std::iota(all.begin(), all.end(), 0u);
+  sides.padded = PaddedPoints(sides.cloud, all);
   return sides;
 }
 

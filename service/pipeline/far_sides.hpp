@@ -24,7 +24,7 @@ struct FarSides {
   Normals normals;   ///< of each of them, outward
   /// Voxels of the points of the workspace and of sparse voxels, and then of each of the far sides' points
   /// one of the same object.
-  std::pmr::vector<std::uint32_t> voxel_of_point, voxel_of_sparse;
+  RawVector<std::uint32_t> voxel_of_point, voxel_of_sparse;
   /// Points that follow one another and so are near each other.
   struct Part {
     BoundingBall bounds;

@@ -81,10 +81,14 @@ namespace {
 
 struct Workspace {
   __m256 m[3][3], shift[3], min[3], max[3], origin[3], least, most;
+  bool is_aligned = true;  // the box, with the axes of the points: each coordinate comes out as it is
 
   GRASPD_AVX2 explicit Workspace(const WorkspaceTest& test)
       : least(_mm256_set1_ps(test.least_squared)), most(_mm256_set1_ps(test.most_squared)) {
     for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j)
+        is_aligned = is_aligned && test.box.to_local[i][j] == (i == j ? 1.0f : 0.0f);
+      is_aligned = is_aligned && test.box.shift[i] == 0;
       for (int j = 0; j < 3; ++j) m[i][j] = _mm256_set1_ps(test.box.to_local[i][j]);
       shift[i] = _mm256_set1_ps(test.box.shift[i]);
       min[i] = _mm256_set1_ps(test.box.min[i]);
@@ -103,6 +107,9 @@ struct Workspace {
     const __m256 squared =
         _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(dx, dx), _mm256_mul_ps(dy, dy)), _mm256_mul_ps(dz, dz));
     __m256 lanes = between(squared, least, most);
+    if (is_aligned)
+      return _mm256_and_ps(_mm256_and_ps(lanes, between(x, min[0], max[0])),
+                           _mm256_and_ps(between(y, min[1], max[1]), between(z, min[2], max[2])));
     for (int i = 0; i < 3; ++i) {
       const __m256 xy = _mm256_add_ps(_mm256_mul_ps(m[i][0], x), _mm256_mul_ps(m[i][1], y));
       const __m256 local = _mm256_add_ps(_mm256_add_ps(xy, _mm256_mul_ps(m[i][2], z)), shift[i]);
@@ -116,6 +123,13 @@ struct Workspace {
 GRASPD_AVX2 inline __m256 finite_lanes(__m256 x, __m256 y, __m256 z) {
   const __m256 dx = _mm256_sub_ps(x, x), dy = _mm256_sub_ps(y, y), dz = _mm256_sub_ps(z, z);
   return _mm256_and_ps(_mm256_cmp_ps(dx, dy, _CMP_EQ_OQ), _mm256_cmp_ps(dz, dz, _CMP_ORD_Q));
+}
+
+/// Where the points from the k-th on go, after so many.
+inline ChosenPoints rest(const ChosenPoints& out, std::size_t to, std::size_t k) {
+  return {out.x + to,    out.y + to,
+          out.z + to,    out.position != nullptr ? out.position + to : nullptr,
+          out.room - to, out.first + static_cast<std::uint32_t>(k)};
 }
 
 GRASPD_AVX2 inline unsigned mask_of(__m256 lanes) {
@@ -141,7 +155,13 @@ GRASPD_AVX2 void copy_chosen(const float* x, const float* y, const float* z, con
                              std::size_t n, const ChosenPoints& out) {
   const __m256i iota = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
   std::size_t to = 0, k = 0;
-  for (; k + 8 <= n && to + 8 <= out.room; k += 8) {
+  for (; k + 8 <= n; k += 8) {
+    if (to + 8 > out.room) {
+      // The last few: eight would be written.
+      if (masks[k / 8] != 0) portable::copy_chosen(x + k, y + k, z + k, masks + k / 8, 8, rest(out, to, k));
+      to += static_cast<std::size_t>(std::popcount(unsigned{masks[k / 8]}));
+      continue;
+    }
     const __m256i lanes = lanes_of(masks[k / 8]);
     store(out.x + to, _mm256_loadu_ps(x + k), lanes);
     store(out.y + to, _mm256_loadu_ps(y + k), lanes);
@@ -153,10 +173,7 @@ GRASPD_AVX2 void copy_chosen(const float* x, const float* y, const float* z, con
     }
     to += static_cast<std::size_t>(std::popcount(unsigned{masks[k / 8]}));
   }
-  portable::copy_chosen(
-      x + k, y + k, z + k, masks + k / 8, n - k,
-      {out.x + to, out.y + to, out.z + to, out.position != nullptr ? out.position + to : nullptr,
-       out.room - to, out.first + static_cast<std::uint32_t>(k)});
+  portable::copy_chosen(x + k, y + k, z + k, masks + k / 8, n - k, rest(out, to, k));
 }
 
 }  // namespace avx2

@@ -10,20 +10,21 @@
 namespace graspd {
 namespace {
 
-/// 1 for each point that takes part and is of no surface that is large enough.
-std::pmr::vector<std::uint8_t> find_leftovers(const std::pmr::vector<std::uint8_t>& excluded,
-                                              float min_points, const Labels& labels) {
+/// The points that take part and are of no surface that is large enough, ascending.
+std::pmr::vector<std::uint32_t> find_leftovers(std::span<const std::uint32_t> points,
+                                               const std::pmr::vector<std::uint8_t>& excluded,
+                                               float min_points, const Labels& labels) {
   std::pmr::vector<std::uint32_t> count(static_cast<std::size_t>(labels.num_labels));
-  for (const std::int32_t label : labels.of_point)
-    if (label >= 0) ++count[static_cast<std::size_t>(label)];
-  std::pmr::vector<std::uint8_t> is_left(labels.of_point.size());
-  for (std::size_t i = 0; i < is_left.size(); ++i) {
+  for (const std::uint32_t i : points)
+    if (labels.of_point[i] >= 0) ++count[static_cast<std::size_t>(labels.of_point[i])];
+  std::pmr::vector<std::uint32_t> left;
+  for (const std::uint32_t i : points) {
     const std::int32_t label = labels.of_point[i];
     const bool is_of_surface =
         label >= 0 && static_cast<float>(count[static_cast<std::size_t>(label)]) >= min_points;
-    is_left[i] = !is_of_surface && (excluded.empty() || excluded[i] == 0) ? 1 : 0;
+    if (!is_of_surface && (excluded.empty() || excluded[i] == 0)) left.push_back(i);
   }
-  return is_left;
+  return left;
 }
 
 /// At least a few times as long as wide.
@@ -43,16 +44,15 @@ bool is_long(const PointCloud& cloud, const std::pmr::vector<std::uint32_t>& poi
 
 /// The components of the points that are left, in the order of their first points.
 std::pmr::map<std::uint32_t, std::pmr::vector<std::uint32_t>> components(
-    const Neighborhoods& neighborhoods, const std::pmr::vector<std::uint8_t>& is_left) {
+    const Neighborhoods& neighborhoods, const std::pmr::vector<std::uint32_t>& left) {
+  std::pmr::vector<std::uint8_t> is_left(neighborhoods.size());
+  for (const std::uint32_t i : left) is_left[i] = 1;
   UnionFind sets(is_left.size());
-  for (std::uint32_t i = 0; i < is_left.size(); ++i) {
-    if (is_left[i] == 0) continue;
+  for (const std::uint32_t i : left)
     for (const std::uint32_t j : neighborhoods.of(i))
       if (j > i && is_left[j] != 0) sets.unite(i, j);
-  }
   std::pmr::map<std::uint32_t, std::pmr::vector<std::uint32_t>> result;
-  for (std::uint32_t i = 0; i < is_left.size(); ++i)
-    if (is_left[i] != 0) result[sets.find(i)].push_back(i);
+  for (const std::uint32_t i : left) result[sets.find(i)].push_back(i);
   return result;
 }
 
@@ -61,7 +61,7 @@ std::pmr::map<std::uint32_t, std::pmr::vector<std::uint32_t>> components(
 void label_leftovers(const PointCloud& cloud, const Neighborhoods& neighborhoods,
                      const std::pmr::vector<std::uint8_t>& excluded, float min_points, Labels& labels) {
   for (const auto& [first, points] :
-       components(neighborhoods, find_leftovers(excluded, min_points, labels))) {
+       components(neighborhoods, find_leftovers(neighborhoods.points(), excluded, min_points, labels))) {
     if (static_cast<float>(points.size()) < min_points || !is_long(cloud, points)) continue;
     for (const std::uint32_t i : points) labels.of_point[i] = labels.num_labels;
     ++labels.num_labels;

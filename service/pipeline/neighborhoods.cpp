@@ -33,19 +33,13 @@ class RowCursor {
 
   /// The points around a cell; cells must ascend from call to call.
   std::span<const PointSpan> around(std::size_t cell) {
-    const std::int64_t* keys = order_.keys.data();
-    const std::size_t num_cells = order_.num_cells();
     std::size_t n = 0;
     for (std::size_t i = 0; i < offsets_.size(); ++i) {
-      const std::int64_t center = keys[cell] + offsets_[i];
-      std::size_t p = positions_[i];
-      while (p + kStride < num_cells && keys[p + kStride] < center - 1) p += kStride;
-      while (p < num_cells && keys[p] < center - 1) ++p;
-      positions_[i] = p;
-      std::size_t end = p;
-      while (end < num_cells && keys[end] <= center + 1) ++end;
-      spans_[n] = {order_.starts[p], order_.starts[end]};
-      n += p != end ? 1 : 0;
+      const std::int64_t center = order_.keys[cell] + offsets_[i];
+      const std::size_t begin = positions_[i] = next_at(positions_[i], center - 1);
+      const std::size_t end = ends_[i] = next_at(std::max(ends_[i], begin), center + 2);
+      spans_[n] = {order_.starts[begin], order_.starts[end]};
+      n += begin != end ? 1 : 0;
     }
     return {spans_.data(), n};
   }
@@ -53,9 +47,18 @@ class RowCursor {
  private:
   static constexpr std::size_t kStride = 8;  // cells that are passed over at once where few are asked for
 
+  /// The first cell from c on with no smaller key.
+  [[nodiscard]] std::size_t next_at(std::size_t c, std::int64_t key) const {
+    const std::int64_t* keys = order_.keys.data();
+    const std::size_t num_cells = order_.num_cells();
+    while (c + kStride < num_cells && keys[c + kStride] < key) c += kStride;
+    while (c < num_cells && keys[c] < key) ++c;
+    return c;
+  }
+
   const CellOrder& order_;
   std::array<std::int64_t, 9> offsets_{};
-  std::array<std::size_t, 9> positions_{};
+  std::array<std::size_t, 9> positions_{}, ends_{};
   std::array<PointSpan, 9> spans_{};
 };
 
@@ -148,7 +151,7 @@ class ListStorage {
 /// Working memory of one thread, kept from chunk to chunk.
 struct Workspace {
   Candidates candidates;
-  std::pmr::vector<std::uint32_t> wanted;  // points of the cell
+  RawVector<std::uint32_t> wanted;  // points of the cell
   ListStorage lists;
 };
 
@@ -162,7 +165,7 @@ RawVector<std::uint32_t> points_to_find(std::size_t n, const std::pmr::vector<st
 /// Sets the points of a cell whose neighbourhoods are wanted.
 std::span<const std::uint32_t> wanted_points(std::span<const std::uint32_t> cell,
                                              const std::pmr::vector<std::uint8_t>& skip,
-                                             std::pmr::vector<std::uint32_t>& wanted) {
+                                             RawVector<std::uint32_t>& wanted) {
   if (skip.empty()) return cell;
   if (wanted.size() < cell.size()) wanted.resize(2 * cell.size());
   const std::uint8_t* skipped = skip.data();

@@ -53,14 +53,18 @@ RawVector<std::uint32_t> points_at_borders(const Neighborhoods& neighborhoods, c
 Borders borders_of(const PointCloud& cloud, const Normals& normals, const Neighborhoods& neighborhoods,
                    std::span<const std::uint32_t> points, const Groups& group_of_point) {
   Borders borders;
+  RawVector<std::uint32_t> others;
   for (const std::uint32_t i : points) {
     const std::int32_t a = group_of_point[i];
     if (a < 0) continue;
+    const std::span<const std::uint32_t> near = neighborhoods.of(i);
+    if (others.size() < near.size() + kPointPadding) others.resize(2 * near.size() + kPointPadding);
+    const std::size_t num =
+        point_kernels().list_above(group_of_point.data(), a, near.data(), near.size(), others.data());
     std::int32_t last = a;
     Border* border = nullptr;  // with the last
-    for (const std::uint32_t j : neighborhoods.of(i)) {
+    for (const std::uint32_t j : std::span(others.data(), num)) {
       const std::int32_t b = group_of_point[j];
-      if (b <= a) continue;
       if (b != last) border = &borders[{a, b}];
       last = b;
       ++border->pairs;
@@ -257,10 +261,9 @@ Objects merge_objects(const PointCloud& cloud, const Normals& normals, const Nei
   const std::pmr::vector<std::int32_t> whole =
       merge(static_cast<std::size_t>(objects.num_objects), borders, config.min_border_pairs,
             config.min_whole_convex_share, wholes.num_objects);
-  const auto mapped = [&whole](const std::pmr::vector<std::int32_t>& of) {
-    std::pmr::vector<std::int32_t> result = of;
-    for (std::int32_t& k : result)
-      if (k >= 0) k = whole[static_cast<std::size_t>(k)];
+  const auto mapped = [&whole](const Groups& of) {
+    Groups result(of.size(), -1);
+    for (const std::uint32_t i : members(of)) result[i] = whole[static_cast<std::size_t>(of[i])];
     return result;
   };
   wholes.of_segment = mapped(objects.of_segment);

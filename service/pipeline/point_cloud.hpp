@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
-#include <span>
 #include <vector>
 
 #include "service/pipeline/raw_vector.hpp"
@@ -37,19 +36,5 @@ struct PointCloud {
     z.push_back(p.z());
   }
 };
-
-/// The points with these indices, as an unorganized cloud.
-[[nodiscard]] inline PointCloud points_at(const PointCloud& cloud, std::span<const std::uint32_t> indices) {
-  PointCloud points;
-  points.viewpoint = cloud.viewpoint;
-  points.resize(indices.size());
-  points.width = static_cast<int>(indices.size());
-  for (std::size_t k = 0; k < indices.size(); ++k) {
-    points.x[k] = cloud.x[indices[k]];
-    points.y[k] = cloud.y[indices[k]];
-    points.z[k] = cloud.z[indices[k]];
-  }
-  return points;
-}
 
 }  // namespace graspd

@@ -24,6 +24,35 @@ struct PointSpan {
   std::uint32_t begin, end;
 };
 
+/// Points that follow one another and lie in the cell with this key, and their number among all such runs.
+template <class Key>
+struct CellRun {
+  Key key;
+  std::uint32_t number;
+};
+
+/// Where runs go, and the first points of each: those with the numbers [first, last).
+struct RunOutput {
+  CellRun<std::uint32_t>* list;
+  std::uint32_t* starts;
+  std::size_t first, last;
+};
+
+/// Where cells go, and their points: those at positions [first, last).
+struct CellOutput {
+  std::int64_t* keys;
+  std::uint32_t *starts, *points;
+  std::uint32_t first, last;
+};
+
+/// Points of some cells, by indices, those of one cell after the other; each has at least one.
+struct CellPoints {
+  const float *x, *y, *z;
+  const std::uint32_t* index;
+  const std::uint32_t* starts;  ///< num_cells + 1 positions among the indices where a cell's begin
+  std::size_t num_cells;
+};
+
 /// A box, and what takes points to its coordinates: local = to_local p + shift.
 struct BoxTest {
   float to_local[3][3];  ///< rows
@@ -176,6 +205,11 @@ struct ViewImage {
   const std::int32_t* point;  ///< that the depth is of
 };
 
+/// Coordinates of points along the axes of a view [m].
+struct ViewPoints {
+  float *x, *y, *z;
+};
+
 /// Places in the cloud's frame that are looked at together [m].
 inline constexpr std::size_t kProbes = 8;
 struct Probes {
@@ -257,6 +291,10 @@ struct PointKernels {
   /// NeighborList.
   bool (*any_other)(const std::int32_t* values, std::int32_t value, const std::uint32_t* indices,
                     std::size_t n);
+  /// Writes those of n points, by their indices, with a value above the limit, in their order; returns their
+  /// number. There must be room for n + kPointPadding; indices as of a NeighborList.
+  std::size_t (*list_above)(const std::int32_t* values, std::int32_t limit, const std::uint32_t* indices,
+                            std::size_t n, std::uint32_t* out);
   /// Writes the positions of those of n values that are not negative, ascending; returns their number. There
   /// must be room for n + kPointPadding.
   std::size_t (*list_members)(const std::int32_t* values, std::size_t n, std::uint32_t* out);
@@ -271,11 +309,32 @@ struct PointKernels {
   /// Writes for each place the point that hides it, nearer than it by more than margin_m, or -1.
   void (*find_hiders)(const ViewImage& image, const Probes& places, float margin_m,
                       std::int32_t (&hiders)[kProbes]);
+  /// Writes the points in the axes of the view. The range needs no indices.
+  void (*see_points)(const ViewImage& view, const PointRange& points, const ViewPoints& out);
+  /// Writes the pixels that n such points fall on, row by row, or -1 outside of the image and behind the
+  /// sensor.
+  void (*find_pixels)(const ViewImage& view, const ViewPoints& points, std::size_t n, std::int32_t* out);
   /// Widens [low, high] to hold n values; passes over NaN.
   void (*extend_bounds)(const float* v, std::size_t n, float& low, float& high);
   /// Writes the number of the cell of each of n points.
   void (*number_cells)(const CellGrid& grid, const float* x, const float* y, const float* z, std::size_t n,
                        std::uint32_t* out);
+  /// How many of n keys differ from the one before them.
+  std::size_t (*count_changes)(const std::uint32_t* keys, std::size_t n);
+  /// Writes the runs of equal keys among [begin, end), and no others.
+  void (*write_runs)(const std::uint32_t* keys, std::size_t begin, std::size_t end, const RunOutput& out);
+  /// Writes the points of sorted runs [begin, end), the cells that begin there and where their points do, and
+  /// no others; firsts: first point of each run by its number, one more at the end.
+  void (*write_cells)(const CellRun<std::uint32_t>* list, std::size_t begin, std::size_t end,
+                      const std::uint32_t* firsts, CellOutput out);
+  /// Copies the points at some positions, and these for indices unless they are null. The range needs no
+  /// indices.
+  void (*copy_at)(const PointRange& points, std::span<const std::uint32_t> positions, const LocalOutput& out);
+  /// Writes the mean of each cell's points: sums are relative to its first point, so that no digits are lost
+  /// far from the origin.
+  void (*set_means)(const CellPoints& cells, float* x, float* y, float* z);
+  /// Writes for each cell the index of the point nearest to the mean of its points, the first of several.
+  void (*find_middles)(const CellPoints& cells, std::uint32_t* out);
   /// own: 1 for each point of the object; marks: bin + own stride(), or no_mark(). There must be room for
   /// size + kPointPadding, and as many points to read.
   void (*tag_band)(const BandTags& tags, const BandPoints& points, std::int32_t* own, std::int32_t* marks);

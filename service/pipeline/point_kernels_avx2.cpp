@@ -133,15 +133,15 @@ struct MomentParts {
   }
 };
 
-GRASPD_AVX2 inline MomentParts sum_parts(const float* x, const float* y, const float* z,
-                                         const NeighborList& list) {
+GRASPD_AVX2 inline void sum_parts(const float* x, const float* y, const float* z, const NeighborList& list,
+                                  MomentParts& sum) {
   const __m256 px = _mm256_set1_ps(x[list.point]), py = _mm256_set1_ps(y[list.point]),
                pz = _mm256_set1_ps(z[list.point]);
-  const auto offsets = [](const float* v, __m256i i, __m256 origin) GRASPD_AVX2 {
+  const auto offsets = [&](const float* v, __m256i i, __m256 origin) GRASPD_AVX2 {
     return _mm256_sub_ps(_mm256_i32gather_ps(v, i, sizeof(float)), origin);
   };
   const __m256 zero = _mm256_setzero_ps();
-  MomentParts sum{zero, zero, zero, zero, zero, zero, zero, zero, zero};
+  sum = {zero, zero, zero, zero, zero, zero, zero, zero, zero};
   std::size_t from = 0;
   for (; from + 8 <= list.size; from += 8) {
     const __m256i i = load(list.indices + from);
@@ -153,7 +153,6 @@ GRASPD_AVX2 inline MomentParts sum_parts(const float* x, const float* y, const f
     sum.add(_mm256_and_ps(valid, offsets(x, i, px)), _mm256_and_ps(valid, offsets(y, i, py)),
             _mm256_and_ps(valid, offsets(z, i, pz)));
   }
-  return sum;
 }
 
 GRASPD_AVX2 void sum_moments(const float* x, const float* y, const float* z,
@@ -161,7 +160,8 @@ GRASPD_AVX2 void sum_moments(const float* x, const float* y, const float* z,
   __m256 parts[9][kSolved];
   for (std::size_t k = 0; k < kSolved; ++k) {
     const bool is_there = k < lists.size();
-    const MomentParts sum = sum_parts(x, y, z, is_there ? lists[k] : NeighborList{});
+    MomentParts sum;
+    sum_parts(x, y, z, is_there ? lists[k] : NeighborList{}, sum);
     const __m256 all[9] = {sum.x, sum.y, sum.z, sum.xx, sum.xy, sum.xz, sum.yy, sum.yz, sum.zz};
     for (int m = 0; m < 9; ++m) parts[m][k] = all[m];
     out.count[k] = is_there ? static_cast<float>(lists[k].size) : 0.0f;
@@ -243,10 +243,11 @@ GRASPD_AVX2 void number_cells(const CellGrid& grid, const float* x, const float*
 
 const PointKernels* avx2_kernels() {
   static constexpr PointKernels kKernels{
-      test_workspace, copy_chosen,  keep_inside, count_inside, meet_rows,     keep_near,    copy_inside,
-      sum_moments,    solve_planes, score_plane, count_bent,   find_links,    any_other,    list_members,
-      list_unmarked,  sum_circle,   sum_profile, find_hiders,  extend_bounds, number_cells, tag_band,
-      keep_depths,    select_band,  select_own,  extend_own,   mark_band};
+      test_workspace, copy_chosen,   keep_inside,   count_inside, meet_rows,   keep_near,  copy_inside,
+      sum_moments,    solve_planes,  score_plane,   count_bent,   find_links,  any_other,  list_above,
+      list_members,   list_unmarked, sum_circle,    sum_profile,  find_hiders, see_points, find_pixels,
+      extend_bounds,  number_cells,  count_changes, write_runs,   write_cells, copy_at,    set_means,
+      find_middles,   tag_band,      keep_depths,   select_band,  select_own,  extend_own, mark_band};
   static const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("popcnt");
   return has_avx2 ? &kKernels : nullptr;
 }

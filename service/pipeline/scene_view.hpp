@@ -4,9 +4,8 @@
 // out about it.
 #pragma once
 #include <cstdint>
-#include <memory_resource>
 #include <optional>
-#include <vector>
+#include <span>
 
 #include "service/pipeline/box_query.hpp"
 #include "service/pipeline/depth_map.hpp"
@@ -17,20 +16,20 @@
 
 namespace graspd {
 
-/// The cloud at one resolution. References must outlive the view. Points of far sides are numbered after the
-/// cloud's.
+/// The cloud at one resolution. References and spans must outlive the view. Points of far sides are numbered
+/// after the cloud's.
 struct SceneView {
   const PointCloud& cloud;
   const BoxQuery& query;
-  const std::pmr::vector<std::int32_t>& object_of_voxel;  ///< kSupportObject, or -1
-  const Normals& normals;                                 ///< of the voxels
+  std::span<const std::int32_t> object_of_voxel;  ///< kSupportObject, or -1
+  const Normals& normals;                         ///< of the voxels
   /// Of each point; of those of far sides, one of the same object.
-  const std::pmr::vector<std::uint32_t>& voxel;
+  std::span<const std::uint32_t> voxel;
   const std::optional<Support>& support;
   const DepthMap& depth_map;
-  const std::pmr::vector<std::uint32_t>& depth_map_voxel;  ///< of each point that the depth map was made of
-  int tolerance = 0;    ///< stray points allowed in a volume that must be free
-  int min_points = 0;   ///< of the object between the jaws
+  std::span<const std::uint32_t> depth_map_voxel;  ///< of each point that the depth map was made of
+  int tolerance = 0;                               ///< stray points allowed in a volume that must be free
+  int min_points = 0;                              ///< of the object between the jaws
   float spacing_m = 0;  ///< of a sparse copy, which is even; 0 for the points as they were measured
   const FarSides* far_sides = nullptr;  ///< null: none are known
 

@@ -6,6 +6,8 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 
 #include "service/pipeline/members.hpp"
 
@@ -34,6 +36,8 @@ void set_axes(const PointCloud& cloud, Segment& segment) {
   if (segment.normal.dot(cloud.viewpoint - segment.centroid) < 0) segment.normal = -segment.normal;
   segment.major = solver.eigenvectors().col(2).cast<float>();
   segment.minor = segment.normal.cross(segment.major);
+  const double squares = std::max(0.0, solver.eigenvalues()[0]);
+  segment.scatter_m = static_cast<float>(std::sqrt(squares / static_cast<double>(segment.points.size())));
 }
 
 }  // namespace

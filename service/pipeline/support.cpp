@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 #include <random>
 
@@ -241,6 +242,18 @@ void compare_heights(const Heights& h, std::size_t begin, std::size_t end, std::
   }
 }
 
+/// The first of the places [i, end) at which the marks differ, or the end.
+std::size_t first_difference(const std::uint8_t* a, const std::uint8_t* b, std::size_t i, std::size_t end) {
+  std::uint64_t of_a = 0, of_b = 0;
+  for (; i + sizeof(of_a) <= end; i += sizeof(of_a)) {
+    std::memcpy(&of_a, a + i, sizeof(of_a));
+    std::memcpy(&of_b, b + i, sizeof(of_b));
+    if (of_a != of_b) break;
+  }
+  while (i != end && a[i] == b[i]) ++i;
+  return i;
+}
+
 std::pmr::vector<std::uint8_t> points_of(const Support& support, const PointCloud& cloud,
                                          const SupportConfig& config) {
   const Heights heights{cloud, support.plane,
@@ -250,8 +263,8 @@ std::pmr::vector<std::uint8_t> points_of(const Support& support, const PointClou
   std::pmr::vector<std::uint8_t> is_support(cloud.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cloud.size(), 8192), [&](const auto& range) {
     compare_heights(heights, range.begin(), range.end(), is_support.data(), may_belong.data());
-    for (std::size_t i = range.begin(); i != range.end(); ++i) {
-      if (is_support[i] == may_belong[i]) continue;
+    for (std::size_t i = first_difference(is_support.data(), may_belong.data(), range.begin(), range.end());
+         i != range.end(); i = first_difference(is_support.data(), may_belong.data(), i + 1, range.end())) {
       const Eigen::Vector3f p = cloud.point(i);
       const float thickness = support_thickness(p, cloud.viewpoint, support.sigma_m, config);
       is_support[i] = support.plane.height(p) < thickness ? 1 : 0;

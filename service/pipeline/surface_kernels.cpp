@@ -145,22 +145,4 @@ bool any_other(const std::int32_t* values, std::int32_t value, const std::uint32
   return std::any_of(indices, indices + n, [&](std::uint32_t i) { return values[i] != value; });
 }
 
-std::size_t list_members(const std::int32_t* values, std::size_t n, std::uint32_t* out) {
-  std::size_t num = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    out[num] = static_cast<std::uint32_t>(i);
-    num += values[i] >= 0 ? 1 : 0;
-  }
-  return num;
-}
-
-std::size_t list_unmarked(const std::uint8_t* marks, std::size_t n, std::uint32_t* out) {
-  std::size_t num = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    out[num] = static_cast<std::uint32_t>(i);
-    num += marks[i] == 0 ? 1 : 0;
-  }
-  return num;
-}
-
 }  // namespace graspd::portable

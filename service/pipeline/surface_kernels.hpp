@@ -20,7 +20,22 @@ std::size_t count_bent(const NormalArrays& normals, std::uint32_t s, float limit
 FoundLinks find_links(const LinkTest& test, const LinkPlace& place, const std::uint32_t* indices,
                       std::size_t n, std::uint32_t* out);
 bool any_other(const std::int32_t* values, std::int32_t value, const std::uint32_t* indices, std::size_t n);
+std::size_t list_above(const std::int32_t* values, std::int32_t limit, const std::uint32_t* indices,
+                       std::size_t n, std::uint32_t* out);
 std::size_t list_members(const std::int32_t* values, std::size_t n, std::uint32_t* out);
 std::size_t list_unmarked(const std::uint8_t* marks, std::size_t n, std::uint32_t* out);
+
+// What points are brought into order with.
+std::size_t count_changes(const std::uint32_t* keys, std::size_t n);
+void write_runs(const std::uint32_t* keys, std::size_t begin, std::size_t end, const RunOutput& out);
+void write_cells(const CellRun<std::uint32_t>* list, std::size_t begin, std::size_t end,
+                 const std::uint32_t* firsts, CellOutput out);
+void copy_at(const PointRange& points, std::span<const std::uint32_t> positions, const LocalOutput& out);
+void set_means(const CellPoints& cells, float* x, float* y, float* z);
+void find_middles(const CellPoints& cells, std::uint32_t* out);
+
+// What a depth image is rendered with.
+void see_points(const ViewImage& view, const PointRange& points, const ViewPoints& out);
+void find_pixels(const ViewImage& view, const ViewPoints& points, std::size_t n, std::int32_t* out);
 
 }  // namespace graspd::portable

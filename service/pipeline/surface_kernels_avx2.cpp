@@ -107,17 +107,25 @@ GRASPD_AVX2 std::size_t keep_near(const float (&p)[3], float distance_squared, c
                                   std::span<const PointSpan> spans, std::uint32_t* out) {
   const __m256 px = _mm256_set1_ps(p[0]), py = _mm256_set1_ps(p[1]), pz = _mm256_set1_ps(p[2]),
                most = _mm256_set1_ps(distance_squared);
+  const auto near = [&](std::size_t k) GRASPD_AVX2 {
+    const Vectors offset{_mm256_sub_ps(px, _mm256_loadu_ps(points.x + k)),
+                         _mm256_sub_ps(py, _mm256_loadu_ps(points.y + k)),
+                         _mm256_sub_ps(pz, _mm256_loadu_ps(points.z + k))};
+    return mask_of(_mm256_cmp_ps(offset.squared(), most, _CMP_LE_OQ));
+  };
   std::size_t n = 0;
-  for (const PointSpan& span : spans)
-    for (std::size_t k = span.begin; k < span.end; k += 8) {
-      const Vectors offset{_mm256_sub_ps(px, _mm256_loadu_ps(points.x + k)),
-                           _mm256_sub_ps(py, _mm256_loadu_ps(points.y + k)),
-                           _mm256_sub_ps(pz, _mm256_loadu_ps(points.z + k))};
-      const __m256 near = _mm256_cmp_ps(offset.squared(), most, _CMP_LE_OQ);
-      const unsigned mask = valid_lanes(_mm256_movemask_ps(near), k, span.end);
+  for (const PointSpan& span : spans) {
+    std::size_t k = span.begin;
+    for (; k + 8 <= span.end; k += 8) {
+      const unsigned mask = near(k);
       store_index(out + n, points.index + k, lanes_of(mask));
       n += static_cast<std::size_t>(std::popcount(mask));
     }
+    if (k == span.end) continue;
+    const unsigned mask = near(k) & first_lanes(span.end - k);
+    store_index(out + n, points.index + k, lanes_of(mask));
+    n += static_cast<std::size_t>(std::popcount(mask));
+  }
   return n;
 }
 
@@ -245,40 +253,6 @@ GRASPD_AVX2 bool any_other(const std::int32_t* values, std::int32_t value, const
   for (; k + 8 <= n; k += 8)
     if (same_lanes(k) != 0xff) return true;
   return k < n && (~same_lanes(k) & first_lanes(n - k)) != 0;
-}
-
-GRASPD_AVX2 inline std::size_t list_lanes(unsigned mask, __m256i positions, std::uint32_t* out) {
-  _mm256_storeu_si256(reinterpret_cast<__m256i*>(out),
-                      _mm256_permutevar8x32_epi32(positions, lanes_of(mask)));
-  return static_cast<std::size_t>(std::popcount(mask));
-}
-
-GRASPD_AVX2 std::size_t list_members(const std::int32_t* values, std::size_t n, std::uint32_t* out) {
-  const __m256i eight = _mm256_set1_epi32(8);
-  __m256i positions = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
-  std::size_t num = 0, i = 0;
-  for (; i + 8 <= n; i += 8, positions = _mm256_add_epi32(positions, eight))
-    if (const unsigned others = mask_of(_mm256_castsi256_ps(load(values + i))); others != 0xff)
-      num += list_lanes(others ^ 0xff, positions, out + num);
-  for (; i < n; ++i)
-    if (values[i] >= 0) out[num++] = static_cast<std::uint32_t>(i);
-  return num;
-}
-
-GRASPD_AVX2 std::size_t list_unmarked(const std::uint8_t* marks, std::size_t n, std::uint32_t* out) {
-  const __m256i eight = _mm256_set1_epi32(8), zero = _mm256_setzero_si256();
-  std::size_t num = 0, i = 0;
-  for (; i + 32 <= n; i += 32) {
-    const __m256i unmarked = _mm256_cmpeq_epi8(load(marks + i), zero);
-    auto mask = static_cast<unsigned>(_mm256_movemask_epi8(unmarked));
-    __m256i positions =
-        _mm256_add_epi32(_mm256_set1_epi32(static_cast<int>(i)), _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
-    for (; mask != 0; mask >>= 8, positions = _mm256_add_epi32(positions, eight))
-      num += list_lanes(mask & 0xff, positions, out + num);
-  }
-  for (; i < n; ++i)
-    if (marks[i] == 0) out[num++] = static_cast<std::uint32_t>(i);
-  return num;
 }
 
 }  // namespace graspd::avx2

@@ -22,38 +22,40 @@ Normals surface_normals(const PointCloud& cloud, const Neighborhoods& neighborho
                  : estimate_normals(cloud, neighborhoods);
 }
 
-void mark_support(const Support& support, std::pmr::vector<std::int32_t>& object_of_point) {
+void mark_support(const std::optional<Support>& found, std::pmr::vector<std::int32_t>& object_of_point) {
+  if (!found) return;
+  const Support& support = *found;
   const std::uint8_t* is_support = support.is_support.data();
   std::int32_t* object = object_of_point.data();
   for (std::size_t i = 0; i < object_of_point.size(); ++i)
     object[i] = is_support[i] != 0 ? kSupportObject : object[i];
 }
 
-/// Marks the walls of a container as fixed and takes them out of the labels; false where there is none.
-bool take_out_container(const Surfaces& s, const DetectConfig& config,
-                        std::pmr::vector<std::uint8_t>& is_fixed, Labels& labels) {
-  if (!s.support) return false;
-  const std::pmr::vector<std::uint8_t> is_wall =
-      find_container(s.cloud, s.segments, *s.support, config.container);
-  for (std::size_t i = 0; i < is_wall.size(); ++i) {
-    if (!is_wall[i]) continue;
-    is_fixed[i] = 1;
-    labels.of_point[i] = -1;
+/// Takes the walls of a container out of the labels and the segments. Returns 1 for each point of the support
+/// and of the walls; nothing where there is no container.
+std::pmr::vector<std::uint8_t> take_out_container(const DetectConfig& config, Labels& labels, Surfaces& s) {
+  if (!s.support) return {};
+  std::pmr::vector<std::uint8_t> is_fixed = find_container(s.cloud, s.segments, *s.support, config.container);
+  if (is_fixed.empty()) return {};
+  for (std::size_t i = 0; i < is_fixed.size(); ++i) {
+    if (is_fixed[i]) labels.of_point[i] = -1;
+    is_fixed[i] |= s.support->is_support[i];
   }
-  return !is_wall.empty();
+  s.segments = build_segments(s.cloud, labels, config.downsample.leaf_size_m, config.segments);
+  return is_fixed;
 }
 
 SparseVoxels spread_thinly(const PointCloud& voxels, float spacing_m) {
   const std::pmr::vector<std::uint32_t> chosen = thin_out(voxels, spacing_m);
   const PointCloud cloud = points_at(voxels, chosen);
-  // In the query's own order, so that what is known of neighbours is near in memory.
-  const CellOrder order = order_by_cell(cloud, kQueryCell);
+  CellOrder order = order_by_cell(cloud, kQueryCell);
   SparseVoxels sparse;
   sparse.spacing_m = spacing_m;
-  sparse.voxel.reserve(chosen.size());
-  for (const std::uint32_t i : order.points) sparse.voxel.push_back(chosen[i]);
-  sparse.cloud = points_at(cloud, order.points);
-  sparse.query = BoxQuery(sparse.cloud, kQueryCell);
+  // In the query's own order, so that what is known of neighbours is near in memory.
+  sparse.voxel.resize(chosen.size());
+  for (std::size_t k = 0; k < chosen.size(); ++k) sparse.voxel[k] = chosen[order.points[k]];
+  sparse.cloud = points_at(voxels, sparse.voxel);
+  sparse.query = BoxQuery(sparse.cloud, in_order(std::move(order)));
   return sparse;
 }
 
@@ -66,16 +68,17 @@ void find_objects(const Neighborhoods& neighborhoods, const DetectConfig& config
   s.is_edge = find_edge_points(s.normals, neighborhoods, config.smoothness);
   done("edge_points");
   Labels labels = grow_regions(s.normals, neighborhoods, s.is_edge, is_support, config.smoothness);
-  label_leftovers(s.cloud, neighborhoods, is_support, config.segments.min_area_m2 / (leaf * leaf), labels);
+  const float min_points = config.segments.min_area_m2 / (leaf * leaf);
+  label_leftovers(s.cloud, neighborhoods, is_support, min_points, labels);
   done("region_growing");
   s.segments = build_segments(s.cloud, labels, leaf, config.segments);
-  std::pmr::vector<std::uint8_t> is_fixed = is_support;
-  if (take_out_container(s, config, is_fixed, labels))
-    s.segments = build_segments(s.cloud, labels, leaf, config.segments);
+  const std::pmr::vector<std::uint8_t> is_fixed = take_out_container(config, labels, s);
   done("segments");
-  s.objects = group_segments(s.cloud, s.normals, neighborhoods, s.segments, is_fixed, config.objects);
-  if (s.support) mark_support(*s.support, s.objects.of_point);
+  s.objects = group_segments(s.cloud, s.normals, neighborhoods, s.segments,
+                             is_fixed.empty() ? is_support : is_fixed, config.objects);
   s.wholes = merge_objects(s.cloud, s.normals, neighborhoods, s.objects, config.objects);
+  mark_support(s.support, s.objects.of_point);
+  mark_support(s.support, s.wholes.of_point);
   done("objects");
 }
 

@@ -20,7 +20,7 @@ using StageObserver = std::function<void(std::string_view stage)>;
 /// Voxels spread more thinly, for first looks at many candidates.
 struct SparseVoxels {
   PointCloud cloud;
-  std::pmr::vector<std::uint32_t> voxel;  ///< that each of them is
+  RawVector<std::uint32_t> voxel;  ///< that each of them is
   float spacing_m = 0;
   BoxQuery query;
 };
@@ -29,7 +29,7 @@ struct SparseVoxels {
 struct Surfaces {
   PointCloud cloud;
   SparseVoxels sparse;
-  std::pmr::vector<std::uint32_t> voxel_of_point;  ///< for each point before downsampling
+  RawVector<std::uint32_t> voxel_of_point;  ///< for each point before downsampling
   Normals normals;
   std::pmr::vector<std::uint8_t> is_edge;
   std::optional<Support> support;

@@ -49,8 +49,17 @@ TEST(Segments, AxesOfARectangle) {
     EXPECT_GT(segment.normal.dot(side * n), 0.9999f);
     EXPECT_GT(std::abs(segment.major.dot(u)), 0.9999f);
     EXPECT_GT(std::abs(segment.minor.dot(v)), 0.9999f);
+    EXPECT_LT(segment.scatter_m, 1e-6f);
     EXPECT_LT((segment.centroid - (0.5f * n + 0.003f * (19.5f * u + 7.0f * v))).norm(), 1e-5);
   }
+}
+
+TEST(Segments, ScatterAboutThePlane) {
+  PointCloud cloud = grid_patch({0, 0, 1}, {0.003f, 0, 0}, {0, 0.003f, 0}, 20, 20);
+  for (std::size_t i = 0; i < cloud.size(); ++i) cloud.z[i] += i % 2 == i / 20 % 2 ? 0.002f : -0.002f;
+  const Segments segments = build_segments(cloud, all_one(cloud.size()), kTestLeaf, {});
+  ASSERT_EQ(segments.list.size(), 1u);
+  EXPECT_NEAR(segments.list[0].scatter_m, 0.002f, 2e-5f);
 }
 
 TEST(Segments, SmallSurfacesAreLeftOut) {

@@ -249,7 +249,7 @@ TEST(SurfaceKernels, FindLinksWithinARangeToOtherSets) {
   EXPECT_GT(num_links, 10u);
 }
 
-TEST(SurfaceKernels, TellWhetherAnyHasAnotherValue) {
+TEST(SurfaceKernels, TellWhetherAnyHasAnotherValueAndWhichAreAbove) {
   for (const std::size_t size : {0, 1, 8, 13, 64}) {
     const Neighbors in(size);
     std::vector<std::int32_t> values(200, -3);
@@ -261,6 +261,16 @@ TEST(SurfaceKernels, TellWhetherAnyHasAnotherValue) {
         EXPECT_TRUE(form.kernels->any_other(others.data(), -3, in.indices.data(), size)) << form.name;
       }
       EXPECT_EQ(form.kernels->any_other(values.data(), 0, in.indices.data(), size), size > 0) << form.name;
+      for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<std::int32_t>(i * 7 % 50) - 25;
+      std::vector<std::uint32_t> expected, found(size + kPointPadding + 1, kUntouched);
+      for (std::size_t k = 0; k < size; ++k)
+        if (values[in.indices[k]] > 10) expected.push_back(in.indices[k]);
+      const std::size_t n =
+          form.kernels->list_above(values.data(), 10, in.indices.data(), size, found.data());
+      EXPECT_EQ(found.back(), kUntouched);
+      found.resize(n);
+      EXPECT_EQ(found, expected) << form.name << " " << size;
+      values.assign(200, -3);
     }
   }
 }
