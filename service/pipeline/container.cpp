@@ -83,16 +83,16 @@ bool is_thick(const PointRange& standing, const Support& support, const Wall& wa
 }
 
 /// The points near a face: how far along it they lie, and how high above the support.
-struct NearPoints {
+struct SlabPoints {
   std::pmr::vector<float> lengths, heights;
 };
 
-NearPoints points_near(const PointRange& points, const Plane& face, const Support& support,
+SlabPoints points_near(const PointRange& points, const Plane& face, const Support& support,
                        float thickness_m) {
   constexpr std::size_t kBlock = 8;  // most blocks have no such point, which vectors tell at once
   const Eigen::Vector3f along = support.plane.normal.cross(face.normal);
   const float nx = face.normal.x(), ny = face.normal.y(), nz = face.normal.z(), offset = face.offset_m;
-  NearPoints found;
+  SlabPoints found;
   for (std::size_t from = 0; from < points.size; from += kBlock) {
     const float *x = points.x + from, *y = points.y + from, *z = points.z + from;
     float d[kBlock];
@@ -116,7 +116,7 @@ NearPoints points_near(const PointRange& points, const Plane& face, const Suppor
 bool is_wall(const PointRange& standing, const Support& support, const ContainerConfig& config, Wall& wall) {
   const auto most = static_cast<std::size_t>(config.max_outside_share * static_cast<float>(standing.size));
   if (stands_among(standing, wall.face, most)) return false;
-  NearPoints near = points_near(standing, wall.face, support, config.thickness_m);
+  SlabPoints near = points_near(standing, wall.face, support, config.thickness_m);
   if (trimmed_length(near.lengths) < config.min_length_m) return false;
   if (trimmed_length(near.heights) < 0.7f * config.min_height_m) return false;
   wall.top_m = nth(near.heights, near.heights.size() - 1 - near.heights.size() / 50);
