@@ -185,7 +185,8 @@ GuessSearch::GuessSearch(const CheckedScene& scene, const Objects& objects, cons
               kSparseTolerance,
               kMinSparse,
               scene.surfaces.sparse.spacing_m,
-              &scene.far_sides},
+              &scene.far_sides,
+              &scene.surfaces.segments},
       points_{scene.cloud,
               scene.index.query,
               objects.of_point,
@@ -197,7 +198,8 @@ GuessSearch::GuessSearch(const CheckedScene& scene, const Objects& objects, cons
               kPointTolerance,
               kMinPoints,
               0,
-              &scene.far_sides} {}
+              &scene.far_sides,
+              &scene.surfaces.segments} {}
 
 void GuessSearch::run(const std::pmr::vector<std::uint8_t>& wanted, CheckBuffersOfThreads& buffers,
                       SearchResult& out) const {

@@ -7,6 +7,7 @@
 #include <functional>
 #include <numbers>
 #include <span>
+#include <utility>
 
 #include "service/pipeline/contact.hpp"
 #include "service/pipeline/nth_value.hpp"
@@ -52,6 +53,7 @@ class Check {
   [[nodiscard]] Failure check_walls();
   [[nodiscard]] Failure check_contacts();
   [[nodiscard]] Failure check_unseen();
+  [[nodiscard]] float one_face() const;
   /// Writes to buffers_.selected which points are at these distances from the middle and depths; their
   /// number.
   [[nodiscard]] std::size_t select(float min_distance, float max_distance, float min_depth, float max_depth);
@@ -308,6 +310,33 @@ Failure Check::check_contacts() {
   return handle_.width_m > gripper_.aperture_m - 0.002f ? Failure::kTooWide : Failure::kNone;
 }
 
+/// How much smaller than a good part of what looks back along the approach its second largest face is: two
+/// large ones are those of two things side by side, such as books in a row. Round objects have such faces
+/// above one another.
+float Check::one_face() const {
+  constexpr float kFacing = 0.85f;  // cosine
+  constexpr float kGoodPart = 0.15f;
+  constexpr std::size_t kMost = 8;  // segments; the jaws are not around more
+  if (scene_.segments == nullptr || between_.size() != static_cast<std::size_t>(num_seen_)) return 1;
+  std::array<std::int32_t, kMost> faces{};
+  std::array<int, kMost> sizes{};
+  std::size_t num_faces = 0;
+  int all = 0;
+  for (const std::uint32_t k : between_) {
+    const std::uint32_t voxel = scene_.voxel[local_.index[k]];
+    if (-handle_.rotation.col(2).dot(scene_.normals.at(voxel)) < kFacing) continue;
+    ++all;
+    const std::int32_t segment = scene_.segments->of_point[voxel];
+    const auto i = static_cast<std::size_t>(std::find(faces.begin(), faces.begin() + num_faces, segment) -
+                                            faces.begin());
+    if (segment < 0 || i == kMost) continue;
+    if (i == num_faces) faces[num_faces++] = segment;
+    ++sizes[i];
+  }
+  std::nth_element(sizes.begin(), sizes.begin() + 1, sizes.end(), std::greater<>());
+  return 1 - static_cast<float>(sizes[1]) / (kGoodPart * static_cast<float>(std::max(1, all)));
+}
+
 Failure Check::check_unseen() {
   const Gripper& g = gripper_;
   float hidden[2];
@@ -338,6 +367,7 @@ CheckResult Check::run(const PatchFit& fit) {
   if (!passes(check_volumes()) || !passes(check_support())) return result;
   find_ends();
   if (!passes(check_unseen())) return result;
+  margins_.one_face = one_face();
   result.handle = handle_;
   result.margins = margins_;
   result.squared_axis = squared_;

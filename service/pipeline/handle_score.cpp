@@ -14,11 +14,11 @@ float doubt(ContactKind kind) {
     case ContactKind::kWall:
       return 0.0f;
     case ContactKind::kFreeEdge:
-      return 0.4f;
+      return 0.6f;
     case ContactKind::kCurvedEdge:
-      return 0.45f;
+      return 0.1f;
     case ContactKind::kFlatEdge:
-      return 0.35f;
+      return 0.3f;
     case ContactKind::kThinEdge:
       return 2.0f;
     case ContactKind::kNone:
@@ -35,11 +35,12 @@ float doubt(float margin, float weight) {
 }  // namespace
 
 float score(const HandleMargins& m) {
-  constexpr float kBestLogOdds = 4.2f;
-  const float doubts = doubt(m.contact[0]) + doubt(m.contact[1]) + doubt(m.square, 3.0f) +
-                       doubt(m.area, 2.6f) + doubt(m.walls, 2.7f) + doubt(m.seen, 1.0f) +
-                       doubt(m.thickness, 1.4f) + doubt(m.silhouettes, 1.6f) + doubt(m.grip_depth, 0.25f) +
-                       doubt(m.central, 0.6f) + doubt(m.width, 0.5f) + doubt(m.steady, 3.0f);
+  constexpr float kBestLogOdds = 4.5f;
+  const float doubts = doubt(m.contact[0]) + doubt(m.contact[1]) + doubt(m.square, 3.4f) +
+                       doubt(m.area, 2.2f) + doubt(m.walls, 3.4f) + doubt(m.seen, 1.6f) +
+                       doubt(m.thickness, 1.3f) + doubt(m.silhouettes, 2.3f) + doubt(m.grip_depth, 0.1f) +
+                       doubt(m.central, 0.2f) + doubt(m.width, 0.1f) + doubt(m.one_face, 3.0f) +
+                       doubt(m.steady, 2.0f);
   return 1 / (1 + std::exp(doubts - kBestLogOdds));
 }
 

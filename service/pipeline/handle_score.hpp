@@ -20,6 +20,7 @@ struct HandleMargins {
   float seen = 1;         ///< smaller of the two fingers' observed free shares
   float thickness = 1;    ///< how far the object is from so narrow that its normals mix both of its sides
   float area = 1;         ///< how much of it is seen between the jaws
+  float one_face = 1;     ///< how surely what looks back between the jaws is one thing's
   float steady = 1;       ///< share of the poses next to it that hold too
   float central = 1;      ///< how near the jaws are to the middle of the visible object
 

@@ -32,6 +32,7 @@ struct SceneView {
   int min_points = 0;                              ///< of the object between the jaws
   float spacing_m = 0;  ///< of a sparse copy, which is even; 0 for the points as they were measured
   const FarSides* far_sides = nullptr;  ///< null: none are known
+  const Segments* segments = nullptr;   ///< of the voxels; null: none are known
 
   [[nodiscard]] bool is_sparse() const { return spacing_m > 0; }
   /// Whether a point was measured: else it is of a far side.

@@ -12,6 +12,14 @@
 namespace graspd {
 namespace {
 
+/// Scores of these tests are spread over all there are.
+HandleRankingConfig lenient() {
+  HandleRankingConfig config;
+  config.min_score = 0.01f;
+  config.min_further_score = 0.5f;
+  return config;
+}
+
 RankedHandle handle_at(float x, float score, int object = 0, bool is_first = false) {
   RankedHandle ranked;
   ranked.handle.position = {x, static_cast<float>(object), 0};
@@ -23,7 +31,7 @@ RankedHandle handle_at(float x, float score, int object = 0, bool is_first = fal
 
 TEST(HandleRankingFirst, LeadsItsObjectAndTheOthersGetItsScore) {
   const std::pmr::vector<Handle> ranked =
-      rank_handles({handle_at(0, 0.9f), handle_at(0.2f, 0.6f), handle_at(0.1f, 0.7f, 0, true)}, {});
+      rank_handles({handle_at(0, 0.9f), handle_at(0.2f, 0.6f), handle_at(0.1f, 0.7f, 0, true)}, lenient());
   ASSERT_EQ(ranked.size(), 3u);
   EXPECT_EQ(ranked[0].position.x(), 0.1f);
   EXPECT_EQ(ranked[0].score, 0.7f);
@@ -49,7 +57,7 @@ TEST(HandleRankingFirst, ObjectsAreInTheOrderOfTheirFirstHandles) {
 }
 
 TEST(HandleRankingFirst, AnAllButRefutedOneHasNoOthersBesideIt) {
-  HandleRankingConfig config;
+  HandleRankingConfig config = lenient();
   const auto num_kept = [&config](float first) {
     return rank_handles({handle_at(0, 0.9f), handle_at(0.2f, first, 0, true)}, config).size();
   };
@@ -58,7 +66,7 @@ TEST(HandleRankingFirst, AnAllButRefutedOneHasNoOthersBesideIt) {
 }
 
 TEST(HandleRankingFirst, BelowTheLeastScoreItDoesNotCount) {
-  HandleRankingConfig config;
+  HandleRankingConfig config = lenient();
   config.min_score = 0.3f;
   const std::pmr::vector<Handle> ranked =
       rank_handles({handle_at(0, 0.9f), handle_at(0.2f, 0.2f, 0, true)}, config);
@@ -73,7 +81,7 @@ TEST(HandleRankingFirst, ItsScoreIsFinal) {
     asked.insert(asked.end(), which.begin(), which.end());
     for (const std::size_t i : which) handles[i].handle.score *= 0.5f;
   };
-  HandleRankingConfig config;
+  HandleRankingConfig config = lenient();
   config.min_further_score = 0.1f;
   const std::pmr::vector<Handle> ranked =
       rank_handles({handle_at(0, 0.9f), handle_at(0.2f, 0.7f, 0, true)}, config, settle);

@@ -13,6 +13,14 @@
 namespace graspd {
 namespace {
 
+/// Scores of these tests are spread over all there are.
+HandleRankingConfig lenient() {
+  HandleRankingConfig config;
+  config.min_score = 0.01f;
+  config.min_further_score = 0.5f;
+  return config;
+}
+
 RankedHandle handle_at(float x, float score, int object = 0, int id = 0) {
   RankedHandle ranked;
   ranked.handle.position = {x, static_cast<float>(object), 0};
@@ -34,7 +42,7 @@ TEST(HandleRankingSpread, PlacesSpreadOverALongObject) {
 }
 
 TEST(HandleRankingSpread, APlaceElsewhereBeatsASlightlyBetterOneNextToTheBest) {
-  HandleRankingConfig config;
+  HandleRankingConfig config = lenient();
   config.max_per_object = 2;
   const std::pmr::vector<RankedHandle> handles{handle_at(0, 0.9f), handle_at(0.025f, 0.89f),
                                                handle_at(0.2f, 0.8f)};
@@ -49,7 +57,7 @@ TEST(HandleRankingSpread, APlaceElsewhereBeatsASlightlyBetterOneNextToTheBest) {
 }
 
 TEST(HandleRankingSpread, APlaceElsewhereThatIsMuchWorseDoesNotWin) {
-  HandleRankingConfig config;
+  HandleRankingConfig config = lenient();
   config.max_per_object = 2;
   config.min_further_score = 0;
   const std::pmr::vector<Handle> ranked =
@@ -59,7 +67,7 @@ TEST(HandleRankingSpread, APlaceElsewhereThatIsMuchWorseDoesNotWin) {
 }
 
 TEST(HandleRankingSpread, FurtherHandlesMustBeBetterThanTheFirst) {
-  HandleRankingConfig config;
+  HandleRankingConfig config = lenient();
   config.min_further_score = 0.5f;
   const auto num_kept = [&config](float best, float further) {
     return rank_handles({handle_at(0, best), handle_at(0.2f, further)}, config).size();
@@ -74,7 +82,7 @@ TEST(HandleRankingSpread, FurtherHandlesMustBeBetterThanTheFirst) {
 TEST(HandleRankingSpread, TheBestOfEveryObjectStays) {
   std::mt19937 random(5);
   std::uniform_real_distribution<float> unit(0, 1);
-  HandleRankingConfig config;
+  HandleRankingConfig config = lenient();
   std::pmr::vector<RankedHandle> handles;
   std::map<int, float> best;
   for (int i = 0; i < 300; ++i) {
@@ -93,7 +101,7 @@ TEST(HandleRankingSpread, TheBestOfEveryObjectStays) {
 }
 
 TEST(HandleRankingSpread, TiesStayInOrder) {
-  HandleRankingConfig config;
+  HandleRankingConfig config = lenient();
   config.max_per_object = 1;
   const std::pmr::vector<Handle> one = rank_handles(
       {handle_at(0, 0.7f, 0, 10), handle_at(0.1f, 0.7f, 0, 11), handle_at(0.2f, 0.7f, 0, 12)}, config);
@@ -108,7 +116,7 @@ TEST(HandleRankingSpread, TiesStayInOrder) {
 }
 
 TEST(HandleRankingSpread, NothingIsChosenTwice) {
-  HandleRankingConfig config;
+  HandleRankingConfig config = lenient();
   config.distinct_distance_m = 0;
   config.max_per_object = 10;
   std::pmr::vector<RankedHandle> handles;

@@ -14,9 +14,9 @@ namespace {
 using Margin = float HandleMargins::*;
 
 constexpr std::array kMargins{
-    &HandleMargins::width,     &HandleMargins::grip_depth, &HandleMargins::silhouettes,
-    &HandleMargins::square,    &HandleMargins::walls,      &HandleMargins::seen,
-    &HandleMargins::thickness, &HandleMargins::area,       &HandleMargins::central};
+    &HandleMargins::width,   &HandleMargins::grip_depth, &HandleMargins::silhouettes, &HandleMargins::square,
+    &HandleMargins::walls,   &HandleMargins::seen,       &HandleMargins::thickness,   &HandleMargins::area,
+    &HandleMargins::central, &HandleMargins::one_face};
 constexpr std::array kKinds{ContactKind::kNone,       ContactKind::kWall,     ContactKind::kFreeEdge,
                             ContactKind::kCurvedEdge, ContactKind::kFlatEdge, ContactKind::kThinEdge};
 
