@@ -73,13 +73,15 @@ Eigen::Vector3f Chooser::preferred_approach() const {
 }
 
 /// The log odds, and what decides between handles that are about equally good. The weights make the
-/// difference between two ways to take an object larger than what noise does to their scores.
+/// difference between two ways to take an object larger than what noise does to their scores. A thin wall is
+/// taken only where nothing else of the object can be.
 float Chooser::worth(const FoundHandle& found) const {
-  constexpr float kStraight = 4, kWide = 4, kInDepth = 2;
+  constexpr float kStraight = 4, kWide = 4, kInDepth = 2, kThin = 8;
   const Handle& handle = found.ranked.handle;
   return log_odds(handle.score) + kStraight * handle.rotation.col(2).dot(preferred_approach()) -
          kWide * handle.width_m / gripper_.aperture_m -
-         kInDepth * std::abs(handle.rotation.col(1).dot(shape_.sight()));
+         kInDepth * std::abs(handle.rotation.col(1).dot(shape_.sight())) -
+         (found.margins.has_thin_edge() ? kThin : 0);
 }
 
 std::optional<FoundHandle> Chooser::as_handle(const CheckResult& result) const {

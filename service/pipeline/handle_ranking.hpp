@@ -14,7 +14,7 @@ namespace graspd {
 struct HandleRankingConfig {
   int max_handles = 100;
   int max_per_object = 3;
-  float min_score = 0.2f;
+  float min_score = 0.1f;
   float min_further_score = 0.8f;
   float distinct_distance_m = 0.02f;
   float distinct_angle_deg = 30.0f;
