@@ -131,6 +131,17 @@ std::pmr::vector<Promising> promising_ones(const std::pmr::vector<Candidate>& ca
   return passed;
 }
 
+/// The candidates of the next ranks on objects that have too few handles.
+std::pmr::vector<Candidate> next_ones(const std::pmr::vector<Promising>& promising, std::size_t rank,
+                                      const std::pmr::vector<std::size_t>& num_handles) {
+  std::pmr::vector<Candidate> next;
+  for (const Promising& p : promising)
+    if (p.rank >= rank && p.rank < rank + kAtOnce &&
+        num_handles[static_cast<std::size_t>(p.candidate.object)] < kEnoughHandles)
+      next.push_back(p.candidate);
+  return next;
+}
+
 /// What a sparse copy measures is off by up to half its spacing at either end: it refuses only what is
 /// clearly wrong.
 HandleCheckConfig coarse_limits(HandleCheckConfig limits) {
@@ -216,11 +227,7 @@ void GuessSearch::run(const std::pmr::vector<std::uint8_t>& wanted, CheckBuffers
     };
     const std::pmr::vector<Promising> promising = promising_ones(candidates, first_look, out);
     for (std::size_t rank = 0; rank < kMostOfAnObject; rank += kAtOnce) {
-      std::pmr::vector<Candidate> next;
-      for (const Promising& p : promising)
-        if (p.rank >= rank && p.rank < rank + kAtOnce &&
-            num_handles[static_cast<std::size_t>(p.candidate.object)] < kEnoughHandles)
-          next.push_back(p.candidate);
+      const std::pmr::vector<Candidate> next = next_ones(promising, rank, num_handles);
       const Results fine = check_all(points_, gripper_, config_.check, next, nullptr, buffers);
       for (std::size_t k = 0; k < next.size(); ++k) {
         out.count(next[k].segment, fine[k].failure);
