@@ -28,7 +28,7 @@ struct Segment {
   Eigen::Vector3f normal = Eigen::Vector3f::UnitZ();  ///< n: smallest principal axis, towards the sensor
   Eigen::Vector3f major = Eigen::Vector3f::UnitX();   ///< a: largest principal axis
   Eigen::Vector3f minor = Eigen::Vector3f::UnitY();   ///< f = n x a; a, f, n are right-handed
-  float scatter_m = 0;                                ///< root mean square distance of its points from their plane
+  float scatter_m = 0;  ///< root mean square distance of its points from their plane
 };
 
 struct Segments {
