@@ -195,21 +195,21 @@ Contact edge_contact(const ContactInput& in, float side, float end_m, float hidd
 
 /// Whether the sensor saw something well behind most places just beyond the end, below its height: where a
 /// face is missing nothing is seen.
-bool is_seen_through(const ContactInput& in, float side, float end_m, float top_m) {
+bool is_seen_through(const ContactInput& in, float side, float end_m) {
   constexpr float kBelow = 0.002f, kBehind = 0.010f, kAnywhere = 1e3f;
-  int seen = 0, through = 0;
+  constexpr int kLeast = 4;  // of the six places
+  int through = 0;
   for (const float a : {-0.3f, 0.0f, 0.3f})
     for (const float beyond : {0.006f, 0.010f}) {
       const Eigen::Vector3f place =
           in.position +
-          in.rotation * Eigen::Vector3f(a * in.finger_thickness_m, end_m + side * beyond, top_m + kBelow);
-      ++seen;
+          in.rotation * Eigen::Vector3f(a * in.finger_thickness_m, end_m + side * beyond, in.top_m + kBelow);
       through += in.scene.depth_map.hider(place, -kBehind) == DepthMap::kFree &&
                          in.scene.depth_map.hider(place, -kAnywhere) != DepthMap::kFree
                      ? 1
                      : 0;
     }
-  return 3 * through >= 2 * seen;
+  return through >= kLeast;
 }
 
 /// Whether what is between the jaws is the edge of a thin wall that ends here: a plate's other face is out of
@@ -228,7 +228,7 @@ bool is_thin_edge(const ContactInput& in, float side, float end_m) {
     ++near;
     high += is_high ? 1 : 0;
   }
-  return far - low <= kThin && 2 * high >= near && is_seen_through(in, side, end_m, in.top_m);
+  return far - low <= kThin && 2 * high >= near && is_seen_through(in, side, end_m);
 }
 
 }  // namespace
