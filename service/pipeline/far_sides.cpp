@@ -19,18 +19,18 @@
 namespace graspd {
 namespace {
 
-constexpr float kSpacing = 0.004f;  // between points around the axis [m]
+constexpr float kSpacing = 0.006f;  // between points around the axis [m]
 constexpr float kBehind = 0.008f;   // that a hidden place is behind what is seen, or a free one before it [m]
 constexpr float kMostFreeShare = 0.15f;
 
-struct Wall {
+struct HiddenWall {
   std::pmr::vector<Eigen::Vector3f> points, normals;
 };
 
 /// What of the body's wall faces away from the sensor or is behind others; nothing where too much of it is
 /// seen through.
-Wall hidden_wall(const RoundBody& body, const DepthMap& depth_map, const Eigen::Vector3f& viewpoint) {
-  Wall wall, hidden;
+HiddenWall hidden_wall(const RoundBody& body, const DepthMap& depth_map, const Eigen::Vector3f& viewpoint) {
+  HiddenWall wall, hidden;
   const Eigen::Vector3f x = body.axis.unitOrthogonal(), y = body.axis.cross(x);
   for (const RoundSlice& slice : body.slices) {
     const float around = 2 * std::numbers::pi_v<float> * slice.radius_m;
@@ -65,7 +65,7 @@ Wall hidden_wall(const RoundBody& body, const DepthMap& depth_map, const Eigen::
   }
   const float share =
       static_cast<float>(free) / static_cast<float>(std::max<std::size_t>(1, wall.points.size()));
-  return share > kMostFreeShare ? Wall{} : hidden;
+  return share > kMostFreeShare ? HiddenWall{} : hidden;
 }
 
 BoundingBall bound(std::span<const Eigen::Vector3f> points) {
@@ -97,15 +97,24 @@ bool may_meet(const BoxTest& box, const BoundingBall& ball) {
 
 }  // namespace
 
+template <class Visit>
+void FarSides::for_each_near(const BoxTest& box, Visit visit) const {
+  for (const Wall& wall : walls) {
+    if (!may_meet(box, wall.bounds)) continue;
+    for (std::uint32_t k = wall.first_part; k < wall.end_part; ++k)
+      if (may_meet(box, parts[k].bounds) && !visit(parts[k])) return;
+  }
+}
+
 void FarSides::add_inside(const BoxTest& box, std::uint32_t first_index, LocalPoints& out) const {
   const std::size_t before = out.size();
   std::array<PointSpan, 32> spans;
   std::size_t n = 0;
-  for (const Part& part : parts) {
-    if (!may_meet(box, part.bounds)) continue;
+  for_each_near(box, [&](const Part& part) {
     spans[n++] = part.points;
     if (n == spans.size()) out.add_inside(box, padded.all(), {spans.data(), std::exchange(n, 0)});
-  }
+    return true;
+  });
   if (n > 0) out.add_inside(box, padded.all(), {spans.data(), n});
   for (std::size_t k = before; k < out.size(); ++k) out.index[k] += first_index;
 }
@@ -113,9 +122,10 @@ void FarSides::add_inside(const BoxTest& box, std::uint32_t first_index, LocalPo
 bool FarSides::has_more(const BoxTest& box, int limit) const {
   const auto most = static_cast<std::size_t>(limit);
   std::size_t n = 0;
-  for (const Part& part : parts)
-    if (may_meet(box, part.bounds) && n <= most)
-      n += point_kernels().count_inside(box, padded.all(), {&part.points, 1}, most);
+  for_each_near(box, [&](const Part& part) {
+    n += point_kernels().count_inside(box, padded.all(), {&part.points, 1}, most);
+    return n <= most;
+  });
   return n > most;
 }
 
@@ -129,7 +139,7 @@ FarSides find_far_sides(const Surfaces& surfaces, const DepthMap& depth_map) {
   }
   std::optional<Eigen::Vector3f> up;
   if (surfaces.support) up = surfaces.support->plane.normal;
-  std::pmr::vector<Wall> walls(static_cast<std::size_t>(objects.num_objects));
+  std::pmr::vector<HiddenWall> walls(static_cast<std::size_t>(objects.num_objects));
   tbb::parallel_for(std::size_t{0}, walls.size(), [&](std::size_t k) {
     if (const auto body = fit_round_body(surfaces.cloud, surfaces.normals, points[k], up))
       walls[k] = hidden_wall(*body, depth_map, surfaces.cloud.viewpoint);
@@ -138,9 +148,11 @@ FarSides find_far_sides(const Surfaces& surfaces, const DepthMap& depth_map) {
   sides.voxel_of_point = surfaces.voxel_of_point;
   sides.voxel_of_sparse = surfaces.sparse.voxel;
   for (std::size_t s = objects.of_segment.size(); s-- > 0;) {
-    Wall& wall = walls[static_cast<std::size_t>(objects.of_segment[s])];
+    HiddenWall& wall = walls[static_cast<std::size_t>(objects.of_segment[s])];
     if (wall.points.empty()) continue;
+    const auto first_part = static_cast<std::uint32_t>(sides.parts.size());
     add_parts(wall.points, sides.cloud.size(), sides.parts);
+    sides.walls.push_back({bound(wall.points), first_part, static_cast<std::uint32_t>(sides.parts.size())});
     for (std::size_t i = 0; i < wall.points.size(); ++i) {
       sides.cloud.push_back(wall.points[i]);
       sides.normals.x.push_back(wall.normals[i].x());

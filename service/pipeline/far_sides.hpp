@@ -31,12 +31,23 @@ struct FarSides {
     PointSpan points;
   };
   std::pmr::vector<Part> parts;
+  /// One object's, as parts that follow one another.
+  struct Wall {
+    BoundingBall bounds;
+    std::uint32_t first_part, end_part;
+  };
+  std::pmr::vector<Wall> walls;
   PaddedPoints padded;  ///< the same points
 
   /// Adds those in a box, with indices from first_index on.
   void add_inside(const BoxTest& box, std::uint32_t first_index, LocalPoints& out) const;
   /// Whether more than limit are in a box.
   [[nodiscard]] bool has_more(const BoxTest& box, int limit) const;
+
+ private:
+  /// Calls visit(part) for those that may be in the box; it returns false to stop.
+  template <class Visit>
+  void for_each_near(const BoxTest& box, Visit visit) const;
 };
 
 /// Every object that is part of a body of revolution goes on as it where that is hidden. Nothing for one of

@@ -25,9 +25,8 @@ constexpr int kMinSparse = 6, kMinPoints = 12;  // of the object between the jaw
 // them.
 constexpr std::size_t kAtOnce = 6, kEnoughHandles = 4, kMostOfAnObject = 18;
 
-// The first look is taken at the candidates on a segment in so many parts, and at no more when as many passed
-// as the thorough one takes.
-constexpr std::size_t kParts = 8, kPlenty = kMostOfAnObject;
+// The first look is taken at the candidates on a segment in so many parts, each spread over all of them.
+constexpr std::size_t kParts = 16;
 
 using Results = std::pmr::vector<CheckResult>;
 
@@ -102,30 +101,49 @@ void set_ranks(std::pmr::vector<Promising>& all) {
   for (const std::size_t i : order) all[i].rank = seen[all[i].candidate.object]++;
 }
 
+/// What the first looks at a segment came to.
+struct Tally {
+  std::size_t num = 0;  ///< candidates on it
+  std::size_t looked_at = 0, had_room = 0, passed = 0;
+
+  void count(Failure failure) {
+    ++looked_at;
+    if (failure > Failure::kFingers) ++had_room;
+    if (failure == Failure::kNone) ++passed;
+  }
+  /// Whether the rest would say the same: plenty passed, or hardly one of many found room for the fingers.
+  [[nodiscard]] bool is_clear() const {
+    constexpr std::size_t kPlenty = 8, kMany = 24, kHardlyOneIn = 20;
+    return passed >= kPlenty || (looked_at >= kMany && had_room * kHardlyOneIn < looked_at);
+  }
+};
+
 /// The candidates that pass the first look; counts those that fail. It is taken at every kParts-th candidate
-/// on a segment at a time, and at no more of them when plenty passed: the rest would say the same.
+/// on a segment at a time, until they tell what the segment comes to.
 template <class Check>
 std::pmr::vector<Promising> promising_ones(const std::pmr::vector<Candidate>& candidates, const Check& check,
                                            SearchResult& out) {
-  std::pmr::vector<std::size_t> seen(out.segments.size()), num_passed(seen);
+  std::pmr::vector<Tally> tallies(out.segments.size());
+  const auto tally = [&](const Candidate& c) -> Tally& {
+    return tallies[static_cast<std::size_t>(c.segment)];
+  };
   std::pmr::vector<std::pmr::vector<std::uint32_t>> parts(kParts);
   for (std::uint32_t i = 0; i < candidates.size(); ++i)
-    parts[seen[static_cast<std::size_t>(candidates[i].segment)]++ % kParts].push_back(i);
+    parts[tally(candidates[i]).num++ % kParts].push_back(i);
   std::pmr::vector<Promising> passed;
   std::pmr::vector<Candidate> next;
   for (const std::pmr::vector<std::uint32_t>& part : parts) {
     next.clear();
     for (const std::uint32_t i : part)
-      if (num_passed[static_cast<std::size_t>(candidates[i].segment)] < kPlenty)
-        next.push_back(candidates[i]);
+      if (!tally(candidates[i]).is_clear()) next.push_back(candidates[i]);
     const Results results = check(next);
-    for (std::size_t k = 0; k < next.size(); ++k)
-      if (results[k].failure == Failure::kNone) {
+    for (std::size_t k = 0; k < next.size(); ++k) {
+      tally(next[k]).count(results[k].failure);
+      if (results[k].failure == Failure::kNone)
         passed.push_back({next[k], score(results[k].margins), results[k].handle.position});
-        ++num_passed[static_cast<std::size_t>(next[k].segment)];
-      } else {
+      else
         out.count(next[k].segment, results[k].failure);
-      }
+    }
   }
   set_ranks(passed);
   return passed;
