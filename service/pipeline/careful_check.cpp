@@ -33,15 +33,14 @@ CheckResult check_squarely(const SceneView& scene, const Gripper& gripper, const
 }
 
 float steadiness(const SceneView& scene, const Gripper& gripper, const HandleCheckConfig& config,
-                 std::int32_t object, const Handle& handle, CheckBuffers& buffers) {
+                 const Candidate& place, CheckBuffers& buffers) {
   constexpr float kShift = 0.003f, kTurn = 0.087f;
   int held = 0;
   for (const float sign : {-1.0f, 1.0f}) {
-    const Candidate shifted{handle.position + sign * kShift * handle.rotation.col(0), handle.rotation,
-                            handle.segment, object};
+    Candidate shifted = place, turned = place;
+    shifted.position += sign * kShift * place.rotation.col(0);
     held += check_candidate(scene, gripper, config, shifted, buffers).failure == Failure::kNone ? 1 : 0;
-    const Eigen::AngleAxisf turn(sign * kTurn, Eigen::Vector3f::UnitZ());
-    const Candidate turned{handle.position, handle.rotation * turn, handle.segment, object};
+    turned.rotation = place.rotation * Eigen::AngleAxisf(sign * kTurn, Eigen::Vector3f::UnitZ());
     held += check_candidate(scene, gripper, config, turned, buffers).failure == Failure::kNone ? 1 : 0;
   }
   return 0.25f * static_cast<float>(held);

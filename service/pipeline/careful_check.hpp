@@ -13,10 +13,10 @@ namespace graspd {
                                          const HandleCheckConfig& config, const Candidate& candidate,
                                          CheckBuffers& buffers);
 
-/// Share of four poses next to a handle's that hold, too: 3 mm both ways along its major axis, 5 degrees both
-/// ways about its approach. The robot and the cloud are a little off.
+/// place: of a handle. Share of four poses next to it that hold, too: 3 mm both ways along its major axis, 5
+/// degrees both ways about its approach. The robot and the cloud are a little off.
 [[nodiscard]] float steadiness(const SceneView& scene, const Gripper& gripper,
-                               const HandleCheckConfig& config, std::int32_t object, const Handle& handle,
+                               const HandleCheckConfig& config, const Candidate& place,
                                CheckBuffers& buffers);
 
 }  // namespace graspd

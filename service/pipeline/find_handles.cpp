@@ -61,8 +61,7 @@ class Settler {
   /// The score with the steadiness in it.
   float final_score(const FoundHandle& found) {
     HandleMargins margins = found.margins;
-    margins.steady = steadiness(*found.scene, gripper_, config_, found.candidate_object, found.ranked.handle,
-                                buffers_.local());
+    margins.steady = steadiness(*found.sparse, gripper_, config_, found.as_candidate(), buffers_.local());
     return score(margins);
   }
 

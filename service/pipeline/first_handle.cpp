@@ -54,7 +54,8 @@ class Chooser {
  private:
   [[nodiscard]] float worth(const FoundHandle& found) const;
   [[nodiscard]] Eigen::Vector3f preferred_approach() const;
-  [[nodiscard]] std::optional<FoundHandle> as_handle(const CheckResult& result) const;
+  [[nodiscard]] std::optional<FoundHandle> as_handle(const Candidate& candidate,
+                                                     const CheckResult& result) const;
   [[nodiscard]] std::pmr::vector<Eigen::Matrix3f> steady_rotations() const;
   [[nodiscard]] Choice moved_to_middle(const FoundHandle& found) const;
 
@@ -73,20 +74,19 @@ Eigen::Vector3f Chooser::preferred_approach() const {
 }
 
 /// The log odds, and what decides between handles that are about equally good. The weights make the
-/// difference between two ways to take an object larger than what noise does to their scores. A thin wall is
-/// taken only where nothing else of the object can be.
+/// difference between two ways to take an object larger than what noise does to their scores.
 float Chooser::worth(const FoundHandle& found) const {
-  constexpr float kStraight = 4, kWide = 4, kInDepth = 2, kThin = 8;
+  constexpr float kStraight = 4, kWide = 4, kInDepth = 2;
   const Handle& handle = found.ranked.handle;
   return log_odds(handle.score) + kStraight * handle.rotation.col(2).dot(preferred_approach()) -
          kWide * handle.width_m / gripper_.aperture_m -
-         kInDepth * std::abs(handle.rotation.col(1).dot(shape_.sight())) -
-         (found.margins.has_thin_edge() ? kThin : 0);
+         kInDepth * std::abs(handle.rotation.col(1).dot(shape_.sight()));
 }
 
-std::optional<FoundHandle> Chooser::as_handle(const CheckResult& result) const {
+std::optional<FoundHandle> Chooser::as_handle(const Candidate& candidate, const CheckResult& result) const {
   if (result.failure != Failure::kNone) return std::nullopt;
   FoundHandle found = found_;
+  found.depth_m = candidate.depth_m;
   found.ranked.handle = result.handle;
   found.margins = result.margins;
   found.margins.central = centrality(result.handle, shape_.center());
@@ -125,15 +125,26 @@ Choice Chooser::moved_to_middle(const FoundHandle& found) const {
   std::optional<FoundHandle> moved;
   float sum_of_worths = 0;
   for (const float step : kSteps) {
-    const Candidate candidate{handle.position + (to_middle + step) * major, handle.rotation, handle.segment,
-                              found.candidate_object};
-    const auto there = as_handle(check_candidate(*found.scene, gripper_, config_, candidate, buffers_));
+    Candidate candidate = found.as_candidate();
+    candidate.position += (to_middle + step) * major;
+    const auto there =
+        as_handle(candidate, check_candidate(*found.scene, gripper_, config_, candidate, buffers_));
     if (!there) continue;
     sum_of_worths += worth(*there);
     if (!moved) moved = there;
   }
   if (!moved) return {found, worth(found)};
   return {*moved, worth(*moved) + sum_of_worths / static_cast<float>(kSteps.size())};
+}
+
+/// Where it is at least as likely as not that the object can be taken otherwise, not by a thin wall's edge.
+void leave_edges_out(std::pmr::vector<FoundHandle>& found) {
+  constexpr float kLikely = 0.6f;  // score
+  const auto by_edge = [](const FoundHandle& f) { return f.margins.has_thin_edge(); };
+  const auto is_likely = [&](const FoundHandle& f) {
+    return !by_edge(f) && f.ranked.handle.score >= kLikely;
+  };
+  if (std::any_of(found.begin(), found.end(), is_likely)) std::erase_if(found, by_edge);
 }
 
 FoundHandle Chooser::first(std::pmr::vector<FoundHandle> found) const {
@@ -144,9 +155,11 @@ FoundHandle Chooser::first(std::pmr::vector<FoundHandle> found) const {
     // Reports of segments know only the search: a surface without a handle there keeps none.
     const auto is_there = [&](const FoundHandle& f) { return f.ranked.handle.segment == place->segment; };
     if (std::none_of(found.begin(), found.end(), is_there)) place->segment = found_.ranked.handle.segment;
-    if (const auto handle = as_handle(check_squarely(*found_.scene, gripper_, config_, *place, buffers_)))
+    if (const auto handle =
+            as_handle(*place, check_squarely(*found_.scene, gripper_, config_, *place, buffers_)))
       found.push_back(*handle);
   }
+  leave_edges_out(found);
   std::pmr::vector<std::pair<float, std::size_t>> order;  // the most worth first, of equal ones the first
   for (std::size_t k = 0; k < found.size(); ++k) order.emplace_back(-worth(found[k]), k);
   std::sort(order.begin(), order.end());
@@ -155,8 +168,7 @@ FoundHandle Chooser::first(std::pmr::vector<FoundHandle> found) const {
   for (std::size_t k = 1; k < num_moved; ++k)
     if (const Choice other = moved_to_middle(found[order[k].second]); other.worth > best.worth) best = other;
   FoundHandle& first = best.found;
-  first.margins.steady =
-      steadiness(*first.scene, gripper_, config_, first.candidate_object, first.ranked.handle, buffers_);
+  first.margins.steady = steadiness(*first.sparse, gripper_, config_, first.as_candidate(), buffers_);
   first.ranked.handle.score = score(first.margins);
   first.ranked.is_first = true;
   return first;

@@ -49,8 +49,11 @@ Results check_all(const SceneView& scene, const Gripper& gripper, const HandleCh
   return results;
 }
 
-FoundHandle scored(const CheckResult& result, const Guess& guess, int object, const SceneView& scene) {
-  FoundHandle found{{result.handle, object}, result.margins, &scene, &guess, object};
+FoundHandle scored(const CheckResult& result, const Guess& guess, const Candidate& candidate,
+                   const SceneView& scene, const SceneView& sparse) {
+  const int object = candidate.object;
+  FoundHandle found{{result.handle, object}, result.margins, &scene, &sparse, &guess, object,
+                    candidate.depth_m};
   found.margins.central = centrality(result.handle, guess.objects.center[static_cast<std::size_t>(object)]);
   found.ranked.handle.score = score(found.margins);
   return found;
@@ -250,7 +253,7 @@ void GuessSearch::run(const std::pmr::vector<std::uint8_t>& wanted, CheckBuffers
       for (std::size_t k = 0; k < next.size(); ++k) {
         out.count(next[k].segment, fine[k].failure);
         if (fine[k].failure != Failure::kNone) continue;
-        out.handles.push_back(scored(fine[k], guess_, next[k].object, points_));
+        out.handles.push_back(scored(fine[k], guess_, next[k], points_, sparse_));
         // A thin wall is what is left where nothing else of an object can be held: the search goes on.
         if (!fine[k].margins.has_thin_edge()) ++num_handles[static_cast<std::size_t>(next[k].object)];
       }

@@ -43,8 +43,15 @@ struct FoundHandle {
   RankedHandle ranked;
   HandleMargins margins;          ///< that the score was made of
   const SceneView* scene;         ///< that it was found in
+  const SceneView* sparse;        ///< the same, sparse
   const Guess* guess;             ///< the same
   std::int32_t candidate_object;  ///< its object there
+  float depth_m;                  ///< of the candidate
+
+  /// Its place, to be checked again.
+  [[nodiscard]] Candidate as_candidate() const {
+    return {ranked.handle.position, ranked.handle.rotation, ranked.handle.segment, candidate_object, depth_m};
+  }
 };
 
 /// What was found, and what became of the rest.

@@ -11,7 +11,9 @@
 
 #include "service/pipeline/contact.hpp"
 #include "service/pipeline/nth_value.hpp"
+#include "service/pipeline/one_face.hpp"
 #include "service/pipeline/patch_fit.hpp"
+#include "service/pipeline/thin_wall.hpp"
 
 namespace graspd {
 namespace {
@@ -20,6 +22,7 @@ constexpr float kAmpleRoom = 0.25f;  // share of the aperture left free from whi
 constexpr float kThin = 0.012f, kThick = 0.022f;  // of objects: narrower is doubtful, wider is not [m]
 constexpr float kThinWall = 0.014f;               // and so thin that it must be met squarely [m]
 constexpr float kMaxThinMisalignment = 6.0f;      // within this [degrees]
+constexpr float kMaxBend = 0.0015f;               // of it between the jaws: less than pads yield [m]
 constexpr float kAmpleArea = 5e-4f;               // seen between the jaws, beyond what must be [m2]
 constexpr float kHideMargin =
     0.008f;  // a place is hidden when something is nearer to the sensor by this much [m]
@@ -51,9 +54,9 @@ class Check {
   [[nodiscard]] Failure check_support() const;
   [[nodiscard]] Failure check_silhouettes();
   [[nodiscard]] Failure check_walls();
+  [[nodiscard]] bool check_square(const Contact& low, const Contact& high, bool round);
   [[nodiscard]] Failure check_contacts();
   [[nodiscard]] Failure check_unseen();
-  [[nodiscard]] float one_face() const;
   /// Writes to buffers_.selected which points are at these distances from the middle and depths; their
   /// number.
   [[nodiscard]] std::size_t select(float min_distance, float max_distance, float min_depth, float max_depth);
@@ -157,9 +160,10 @@ Failure Check::check_silhouettes() {
   std::array<float, kSlabs> low, high;
   low.fill(1);
   high.fill(-1);
+  const float slabs_per_m = kSlabs / gripper_.finger_thickness_m;
   for (const std::uint32_t k : between_) {
-    const float along = local_.a[k] / gripper_.finger_thickness_m + 0.5f;
-    const auto slab = static_cast<std::size_t>(std::clamp(static_cast<int>(along * kSlabs), 0, kSlabs - 1));
+    const float along = local_.a[k] * slabs_per_m + 0.5f * kSlabs;
+    const auto slab = static_cast<std::size_t>(std::clamp(static_cast<int>(along), 0, kSlabs - 1));
     low[slab] = std::min(low[slab], local_.f[k]);
     high[slab] = std::max(high[slab], local_.f[k]);
   }
@@ -267,6 +271,24 @@ bool is_thin(const Contact& low, const Contact& high) {
   return high.reach_m - low.reach_m < kThinWall;
 }
 
+/// Whether the jaws would meet the object squarely enough.
+bool Check::check_square(const Contact& low, const Contact& high, bool round) {
+  Eigen::Vector3f squared = squared_axis(low, high, round);
+  float most_off = config_.max_misalignment_deg;
+  if (is_thin(low, high)) {
+    const WallShape wall = fit_wall(local_, between_, top_, gripper_);
+    if (margins_.has_thin_edge() && wall.bend_m > kMaxBend) return false;
+    squared = wall.normal;
+    most_off = kMaxThinMisalignment;
+  } else if (margins_.has_thin_edge()) {
+    return false;  // bent or askew: it takes up more room than a thin wall
+  }
+  squared_ = handle_.rotation * squared;
+  const float off = std::acos(std::clamp(squared.y(), -1.0f, 1.0f));
+  margins_.square = 1 - off / radians(config_.max_misalignment_deg);
+  return off <= radians(most_off);
+}
+
 Failure Check::check_contacts() {
   if (seen_area() < config_.min_contact_area_m2 || gripper_.grasp_depth_m - top_ < config_.min_grip_depth_m)
     return Failure::kContact;
@@ -295,46 +317,14 @@ Failure Check::check_contacts() {
   if (low.kind == ContactKind::kNone) return Failure::kContact;
   const Contact high = find_contact(input, 1, end_[1], finger_hidden_share(1, false));
   if (high.kind == ContactKind::kNone) return Failure::kContact;
-  const Eigen::Vector3f squared = squared_axis(low, high, input.circle.has_value());
   margins_.contact = {low.kind, high.kind};
-  squared_ = handle_.rotation * squared;
-  const float off = std::acos(std::clamp(squared.y(), -1.0f, 1.0f)) / radians(config_.max_misalignment_deg);
-  if (off > 1 || (is_thin(low, high) && off * config_.max_misalignment_deg > kMaxThinMisalignment))
-    return Failure::kContact;
-  margins_.square = 1 - off;
+  if (!check_square(low, high, input.circle.has_value())) return Failure::kContact;
   set_width_from(low, high);
   margins_.width = (gripper_.aperture_m - handle_.width_m) / (kAmpleRoom * gripper_.aperture_m);
   margins_.thickness = (handle_.width_m - kThin) / (kThick - kThin);
   margins_.area = (seen_area() - config_.min_contact_area_m2) / kAmpleArea;
   margins_.grip_depth = (gripper_.grasp_depth_m - top_) / gripper_.grasp_depth_m;
   return handle_.width_m > gripper_.aperture_m - 0.002f ? Failure::kTooWide : Failure::kNone;
-}
-
-/// How much smaller than a good part of what looks back along the approach its second largest face is: two
-/// large ones are those of two things side by side, such as books in a row. Round objects have such faces
-/// above one another.
-float Check::one_face() const {
-  constexpr float kFacing = 0.85f;  // cosine
-  constexpr float kGoodPart = 0.15f;
-  constexpr std::size_t kMost = 8;  // segments; the jaws are not around more
-  if (scene_.segments == nullptr || between_.size() != static_cast<std::size_t>(num_seen_)) return 1;
-  std::array<std::int32_t, kMost> faces{};
-  std::array<int, kMost> sizes{};
-  std::size_t num_faces = 0;
-  int all = 0;
-  for (const std::uint32_t k : between_) {
-    const std::uint32_t voxel = scene_.voxel[local_.index[k]];
-    if (-handle_.rotation.col(2).dot(scene_.normals.at(voxel)) < kFacing) continue;
-    ++all;
-    const std::int32_t segment = scene_.segments->of_point[voxel];
-    const auto i = static_cast<std::size_t>(std::find(faces.begin(), faces.begin() + num_faces, segment) -
-                                            faces.begin());
-    if (segment < 0 || i == kMost) continue;
-    if (i == num_faces) faces[num_faces++] = segment;
-    ++sizes[i];
-  }
-  std::nth_element(sizes.begin(), sizes.begin() + 1, sizes.end(), std::greater<>());
-  return 1 - static_cast<float>(sizes[1]) / (kGoodPart * static_cast<float>(std::max(1, all)));
 }
 
 Failure Check::check_unseen() {
@@ -367,7 +357,9 @@ CheckResult Check::run(const PatchFit& fit) {
   if (!passes(check_volumes()) || !passes(check_support())) return result;
   find_ends();
   if (!passes(check_unseen())) return result;
-  margins_.one_face = one_face();
+  // What is known of a far side is one body's.
+  if (between_.size() == static_cast<std::size_t>(num_seen_))
+    margins_.one_face = one_face(scene_, local_, between_, handle_.rotation.col(2));
   result.handle = handle_;
   result.margins = margins_;
   result.squared_axis = squared_;

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory_resource>
 #include <string_view>
 #include <vector>
@@ -87,6 +88,8 @@ struct Candidate {
   Eigen::Matrix3f rotation = Eigen::Matrix3f::Identity();  ///< columns: major axis, closing axis, approach
   std::int32_t segment = -1;
   std::int32_t object = -1;
+  /// How far the fingertips go below the object's top at most [m]; the gripper may allow less.
+  float depth_m = std::numeric_limits<float>::infinity();
 };
 
 struct CheckResult {

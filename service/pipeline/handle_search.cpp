@@ -233,7 +233,7 @@ std::pmr::vector<Candidate> HandleSearch::candidates(SearchRound round,
     if (k >= num_segments) {
       if (const std::size_t object = k - num_segments; open[object] != 0) {
         add_seeds(object, round, parts[k]);
-        if (config_.seeds && round == SearchRound::kSurroundings) {
+        if (config_.seeds && round == SearchRound::kSurface) {
           const auto rims = rim_candidates(in_, object, gripper_, config_);
           parts[k].insert(parts[k].end(), rims.begin(), rims.end());
         }

@@ -239,11 +239,11 @@ Failure fit_patch(const SceneView& scene, const Gripper& gripper, const HandleCh
   };
   // What the fingertips may be less deep by.
   float room = g.grasp_depth_m - config.min_grip_depth_m;
-  Failure failure = fit_to(g.grasp_depth_m);
-  float raise = 0;
+  float raise = std::min(room, std::max(0.0f, g.grasp_depth_m - candidate.depth_m));
+  Failure failure = fit_to(g.grasp_depth_m - raise);
   if (failure == Failure::kNoGap && fit.width_m <= g.aperture_m) {
     // Above what leaves no gap at full depth there may be one.
-    raise = raise_for_obstacles(scene, g, config, candidate, buffers, fit);
+    raise = std::max(raise, raise_for_obstacles(scene, g, config, candidate, buffers, fit));
     if (raise > room) return failure;
     failure = fit_to(g.grasp_depth_m - raise);
   }

@@ -68,6 +68,20 @@ TEST(HandleCheck, EveryLimitOfAnAngleMayBeAtEitherEndOfItsRange) {
   }
 }
 
+TEST(HandleCheck, TheFingertipsGoNoDeeperThanTheCandidateSays) {
+  const CheckScene scene(box_on_table());
+  const Gripper gripper;
+  CheckBuffers buffers;
+  Candidate candidate = scene.candidate({0, 0, 0.08f}, -Eigen::Vector3f::UnitZ(), Eigen::Vector3f::UnitX());
+  for (const float depth_m : {0.014f, 0.020f, gripper.grasp_depth_m, 1.0f}) {
+    candidate.depth_m = depth_m;
+    const CheckResult result = check_candidate(scene.view(), gripper, {}, candidate, buffers);
+    ASSERT_EQ(result.failure, Failure::kNone);
+    EXPECT_NEAR(result.handle.position.z() - gripper.grasp_depth_m,
+                0.08f - std::min(depth_m, gripper.grasp_depth_m), 0.003f);
+  }
+}
+
 TEST(HandleCheck, ABoxIsHeldAcrossItsNarrowSideOnly) {
   const CheckScene scene(box_on_table());
   CheckBuffers buffers;
