@@ -139,7 +139,7 @@ Choice Chooser::moved_to_middle(const FoundHandle& found) const {
 
 /// Where it is at least as likely as not that the object can be taken otherwise, not by a thin wall's edge.
 void leave_edges_out(std::pmr::vector<FoundHandle>& found) {
-  constexpr float kLikely = 0.6f;  // score
+  constexpr float kLikely = 0.7f;  // score
   const auto by_edge = [](const FoundHandle& f) { return f.margins.has_thin_edge(); };
   const auto is_likely = [&](const FoundHandle& f) {
     return !by_edge(f) && f.ranked.handle.score >= kLikely;

@@ -35,7 +35,7 @@ float doubt(float margin, float weight) {
 }  // namespace
 
 float score(const HandleMargins& m) {
-  constexpr float kBestLogOdds = 4.5f;
+  constexpr float kBestLogOdds = 5.0f;
   const float doubts = doubt(m.contact[0]) + doubt(m.contact[1]) + doubt(m.square, 3.4f) +
                        doubt(m.area, 2.2f) + doubt(m.walls, 3.4f) + doubt(m.seen, 1.6f) +
                        doubt(m.thickness, 1.3f) + doubt(m.silhouettes, 2.3f) + doubt(m.grip_depth, 0.1f) +
