@@ -137,7 +137,7 @@ Choice Chooser::moved_to_middle(const FoundHandle& found) const {
   return {*moved, worth(*moved) + sum_of_worths / static_cast<float>(kSteps.size())};
 }
 
-/// Where it is at least as likely as not that the object can be taken otherwise, not by a thin wall's edge.
+/// Leaves thin walls' edges out where the object can likely be taken otherwise.
 void leave_edges_out(std::pmr::vector<FoundHandle>& found) {
   constexpr float kLikely = 0.7f;  // score
   const auto by_edge = [](const FoundHandle& f) { return f.margins.has_thin_edge(); };

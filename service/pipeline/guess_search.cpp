@@ -254,7 +254,7 @@ void GuessSearch::run(const std::pmr::vector<std::uint8_t>& wanted, CheckBuffers
         out.count(next[k].segment, fine[k].failure);
         if (fine[k].failure != Failure::kNone) continue;
         out.handles.push_back(scored(fine[k], guess_, next[k], points_, sparse_));
-        // A thin wall is what is left where nothing else of an object can be held: the search goes on.
+        // An edge of a thin wall comes first only where no other way is likely: the search for one goes on.
         if (!fine[k].margins.has_thin_edge()) ++num_handles[static_cast<std::size_t>(next[k].object)];
       }
     }

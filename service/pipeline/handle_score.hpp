@@ -32,7 +32,8 @@ struct HandleMargins {
 /// The chance that the handle holds: a logistic function of the contacts and the margins, each of which takes
 /// from the log odds of the best handle there can be. The weights come from a logistic regression over
 /// handles on simulated scenes, for two sensors and several apertures, that were judged on their true solids
-/// (graspd-evaluate --simulate); no real frame took part. The one of thin edges was set by hand.
+/// (graspd-evaluate --simulate); no real frame took part. That of thin edges and the best
+/// log odds were set by hand.
 [[nodiscard]] float score(const HandleMargins& margins);
 
 }  // namespace graspd

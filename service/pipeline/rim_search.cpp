@@ -19,7 +19,7 @@ constexpr float kMinUp = 0.5f;       // cosine between the rim's direction and u
 constexpr float kMaxAside = 0.010f;  // of the strip below the rim along it [m]
 constexpr float kMaxAcross = 0.020f;  // and across it [m]
 constexpr float kEdge = 0.005f;       // below the rim, where normals mix both faces and the edge [m]
-constexpr float kMinFacing = 0.7f;    // cosine between a point's normal and across
+constexpr float kMinFacing = 0.7f;    // cosine between a point's normal and the rim's
 constexpr int kMinStrip = 8;          // points
 constexpr float kShallow = 0.5f;      // of the grasp depth: walls that curve away below are met at their rims
 

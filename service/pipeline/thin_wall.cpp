@@ -3,6 +3,7 @@
 #include "service/pipeline/thin_wall.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 
 namespace graspd {

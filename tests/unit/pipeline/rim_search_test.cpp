@@ -59,8 +59,10 @@ TEST(RimSearch, TheHandComesAlongAPlateAndClosesAcrossIt) {
   for (const Candidate& c : found) {
     EXPECT_NEAR(c.rotation.determinant(), 1, 1e-4);
     EXPECT_GT(c.position.z(), 0.070f);
+    // Of a short strip at a corner little is left.
+    const bool is_short = is_at_corner(c) && c.depth_m < Gripper{}.grasp_depth_m;
+    EXPECT_GT(std::abs(c.rotation(1, 1)), std::cos(is_short ? kTolerance : 0.1f)) << "across the plate";
     if (is_at_corner(c)) continue;
-    EXPECT_GT(std::abs(c.rotation(1, 1)), std::cos(0.1f)) << "across the plate";
     EXPECT_LT(c.rotation(2, 2), -std::cos(kTolerance)) << "from above";
   }
 }
