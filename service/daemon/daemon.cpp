@@ -48,6 +48,7 @@ Daemon::Daemon(ServiceConfig config, Bus& bus, const Clock& clock, Log& log, Con
       control_(or_unchanged(std::move(load), *config_)),
       helpers_(tbb::global_control::max_allowed_parallelism,
                static_cast<std::size_t>(threads_a_frame(*config_))),
+      threads_(threads_a_frame(*config_)),
       arena_(threads_a_frame(*config_) - 1 + config_->workers, static_cast<unsigned>(config_->workers)),
       health_(clock),
       next_status_(clock.now()),
@@ -62,6 +63,7 @@ Bus::Wait Daemon::step() {
   const auto until_status = std::chrono::ceil<std::chrono::milliseconds>(next_status_ - clock_.now());
   const auto result = bus_.wait(std::clamp<std::chrono::milliseconds>(until_status, 0ms, kLongestWait));
   look_at_clock();
+  look_at_cores();
   obey_controls();
   watch_work();
   const Clock::TimePoint now = clock_.now();
@@ -216,6 +218,20 @@ void Daemon::drop(const Job& job, DropReason reason, const std::string& why) {
 
 void Daemon::look_at_clock() {
   if (const auto jump_us = clock_watch_.look(clock_)) log_.warning("clock_set", {{"by_us", *jump_us}});
+}
+
+void Daemon::look_at_cores() {
+  const double free_cores = free_cores_.look();
+  const int most = threads_a_frame(*config_);
+  const int threads = threads_worth_having(free_cores, threads_, most);
+  if (threads == threads_) return;
+  threads_ = threads;
+  fewer_helpers_.reset();
+  if (threads < most)
+    fewer_helpers_.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+  log_.info(
+      "threads_a_frame",
+      {{"threads", threads}, {"most", most}, {"cores_left_percent", static_cast<int>(100 * free_cores)}});
 }
 
 Clock::TimePoint Daemon::arrival_of(const Packet& packet) {

@@ -29,6 +29,7 @@
 #include "service/runtime/clock.hpp"
 #include "service/runtime/clock_watch.hpp"
 #include "service/runtime/frame_queue.hpp"
+#include "service/runtime/free_cores.hpp"
 #include "service/runtime/log.hpp"
 #include "service/runtime/worker_pool.hpp"
 #include "service/transport/bus.hpp"
@@ -77,6 +78,7 @@ class Daemon {
   Answer work_on(const Job& job, const std::atomic<bool>& cancelled);
   void watch_work();
   void look_at_clock();
+  void look_at_cores();
   void publish(Stream& stream, Answer answer);
   void send(const std::string& channel, std::span<const std::byte> bytes);
   void follow_load(Stream& stream, const Answer& answer, double latency_s);
@@ -95,7 +97,10 @@ class Daemon {
   std::set<std::string> subscriptions_;
   std::deque<control_t> controls_;  // that have arrived and are not obeyed yet
   tbb::global_control helpers_;     // one thread less than a frame may have; all workers share them
-  tbb::task_arena arena_;           // with a place for each worker, so that none waits for another's frame
+  std::optional<tbb::global_control> fewer_helpers_;  // while others keep cores busy
+  FreeCores free_cores_;
+  int threads_ = 0;        // that a frame has now
+  tbb::task_arena arena_;  // with a place for each worker, so that none waits for another's frame
   ProcessHealth health_;
   ClockWatch clock_watch_;
   ByteBudget budget_;

@@ -1,8 +1,10 @@
 # SPDX-FileCopyrightText: 2026 The graspd authors
 # SPDX-License-Identifier: BSD-3-Clause
 """What the daemon needs goes away and comes back: route, interface, tcpq server. It waits, says so, and goes on."""
+import os
 import socket
 import subprocess
+import sys
 
 from harness import CLOUDS, HANDLES, PATIENCE_S, STATUS, STOP_WITHIN_S, TYPES, run_tests, wait_until
 from tcpq_server import TcpqServer
@@ -50,6 +52,29 @@ class Surroundings(TrafficTest):
         self.assertIn("lcm_away", [e.event for e in status.errors])
         code, _ = daemon.stop()
         self.assertEqual(code, 0)
+
+    def keep_cores_busy(self):
+        """A process that never sleeps on each core; the function that ends them."""
+        hogs = [subprocess.Popen([sys.executable, "-c", f"import os\nos.sched_setaffinity(0, [{core}])\nwhile True: pass"])
+                for core in os.sched_getaffinity(0)]
+
+        def end():
+            for hog in hogs:
+                hog.kill()
+                hog.wait()
+        self.addCleanup(end)
+        return end
+
+    def test_cores_that_others_keep_busy(self):
+        frames = self.record_frames(2, width=160)
+        bus = self.open_bus()
+        daemon = self.start_daemon(bus, self.write_config(CONFIG + "threads: 4\n"))
+        alone = self.answer(bus, frames[0], 1)
+        end = self.keep_cores_busy()
+        wait_until(lambda: "event=threads_a_frame threads=1 most=4" in daemon.err, "the daemon to do without helpers")
+        self.assertEqual(vars(self.answer(bus, frames[0], 2))["handles"], vars(alone)["handles"])
+        end()
+        self.assertEqual(self.answer(bus, frames[1], 3).source_channel, CLOUDS)
 
     def test_stops_at_once_while_it_waits_for_lcm(self):
         ip("route", "del", *ROUTE)
