@@ -21,11 +21,25 @@ namespace {
 
 constexpr float kSpacing = 0.006f;  // between points around the axis [m]
 constexpr float kBehind = 0.008f;   // that a hidden place is behind what is seen, or a free one before it [m]
+constexpr float kInside = 0.003f;   // a wall, where it is looked through: past its limbs the sensor sees [m]
 constexpr float kMostFreeShare = 0.15f;
 
 struct HiddenWall {
   std::pmr::vector<Eigen::Vector3f> points, normals;
 };
+
+/// The places of a wall from one on, so far inside it; at its end the last one again.
+Probes probes(const HiddenWall& wall, std::size_t from, float inside_m) {
+  Probes places;
+  for (std::size_t k = 0; k < kProbes; ++k) {
+    const std::size_t i = std::min(from + k, wall.points.size() - 1);
+    const Eigen::Vector3f p = wall.points[i] - inside_m * wall.normals[i];
+    places.x[k] = p.x();
+    places.y[k] = p.y();
+    places.z[k] = p.z();
+  }
+  return places;
+}
 
 /// What of the body's wall faces away from the sensor or is behind others; nothing where too much of it is
 /// seen through.
@@ -45,16 +59,10 @@ HiddenWall hidden_wall(const RoundBody& body, const DepthMap& depth_map, const E
   }
   std::size_t free = 0;
   for (std::size_t from = 0; from < wall.points.size(); from += kProbes) {
-    Probes places;
-    for (std::size_t k = 0; k < kProbes; ++k) {
-      const Eigen::Vector3f& p = wall.points[std::min(from + k, wall.points.size() - 1)];
-      places.x[k] = p.x();
-      places.y[k] = p.y();
-      places.z[k] = p.z();
-    }
+    const Probes places = probes(wall, from, 0), inside = probes(wall, from, kInside);
     std::int32_t behind[kProbes], near[kProbes];
     depth_map.find_hiders(places, kBehind, behind);
-    depth_map.find_hiders(places, -kBehind, near);
+    depth_map.find_hiders(inside, -kBehind, near);
     for (std::size_t k = 0; k < std::min(kProbes, wall.points.size() - from); ++k) {
       free += near[k] == DepthMap::kFree ? 1 : 0;
       const Eigen::Vector3f sight = wall.points[from + k] - viewpoint;

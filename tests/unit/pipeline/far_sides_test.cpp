@@ -71,6 +71,21 @@ TEST(FarSides, FindTheirPointsInABox) {
   }
 }
 
+TEST(FarSides, ABodyALittleTooWideIsOneStill) {
+  // The sensor sees past its limbs then; past what is much too wide it sees more.
+  const auto standing = [](double radius) {
+    return cloud_of(on_table({standing_cylinder(0, 0, radius, 0.12)}));
+  };
+  for (const double radius : {0.030, 0.036}) {
+    SCOPED_TRACE(radius);
+    const Surfaces surfaces = surfaces_of(standing(radius));
+    for (const double too_wide : {0.0, 0.001, 0.002})
+      EXPECT_GT(find_far_sides(surfaces, DepthMap(standing(radius - too_wide))).cloud.size(), 100u)
+          << too_wide;
+    EXPECT_TRUE(find_far_sides(surfaces, DepthMap(standing(radius - 0.012))).cloud.empty());
+  }
+}
+
 TEST(FarSides, WhereTheSensorLooksThroughThereIsNone) {
   const PointCloud cloud = cloud_of(cylinder_on_table()), empty_table = cloud_of(on_table({}));
   EXPECT_TRUE(find_far_sides(surfaces_of(cloud), DepthMap(empty_table)).cloud.empty());
