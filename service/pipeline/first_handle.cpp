@@ -86,7 +86,7 @@ float Chooser::worth(const FoundHandle& found) const {
 std::optional<FoundHandle> Chooser::as_handle(const Candidate& candidate, const CheckResult& result) const {
   if (result.failure != Failure::kNone) return std::nullopt;
   FoundHandle found = found_;
-  found.depth_m = candidate.depth_m;
+  found.candidate = candidate;
   found.ranked.handle = result.handle;
   found.margins = result.margins;
   found.margins.central = centrality(result.handle, shape_.center());
@@ -116,8 +116,10 @@ std::pmr::vector<Eigen::Matrix3f> Chooser::steady_rotations() const {
 }
 
 /// Along the major axis to the object's middle, or next to it where that fails. The worth is that of the
-/// result and the mean over these places, which noise moves less.
+/// result and the mean over these places, which noise moves less. A wall whose normal is known at one place
+/// may have another at the next: there it stays.
 Choice Chooser::moved_to_middle(const FoundHandle& found) const {
+  if (found.candidate.is_on_known_wall()) return {found, 2 * worth(found)};
   constexpr std::array<float, 3> kSteps{0, -0.015f, 0.015f};  // from the middle [m]
   const Handle& handle = found.ranked.handle;
   const Eigen::Vector3f major = handle.rotation.col(0);
@@ -137,10 +139,18 @@ Choice Chooser::moved_to_middle(const FoundHandle& found) const {
   return {*moved, worth(*moved) + sum_of_worths / static_cast<float>(kSteps.size())};
 }
 
-/// Leaves thin walls' edges out where the object can likely be taken otherwise.
-void leave_edges_out(std::pmr::vector<FoundHandle>& found) {
-  constexpr float kLikely = 0.7f;  // score
+/// Chooses between the edges of thin walls and other ways to take an object. Where one is held by its rim,
+/// whatever else is narrow between the jaws is the same wall, met askew. What can be taken otherwise with
+/// some chance is: there more is seen of what the jaws meet.
+void choose_about_edges(std::pmr::vector<FoundHandle>& found) {
+  constexpr float kNarrow = 0.025f;  // [m]
+  constexpr float kLikely = 0.35f;   // score
   const auto by_edge = [](const FoundHandle& f) { return f.margins.has_thin_edge(); };
+  const auto on_rim = [](const FoundHandle& f) { return f.candidate.is_on_known_wall(); };
+  if (std::any_of(found.begin(), found.end(), [&](const auto& f) { return by_edge(f) && on_rim(f); }))
+    std::erase_if(found, [&](const FoundHandle& f) {
+      return !by_edge(f) && !on_rim(f) && f.ranked.handle.width_m < kNarrow;
+    });
   const auto is_likely = [&](const FoundHandle& f) {
     return !by_edge(f) && f.ranked.handle.score >= kLikely;
   };
@@ -159,7 +169,7 @@ FoundHandle Chooser::first(std::pmr::vector<FoundHandle> found) const {
             as_handle(*place, check_squarely(*found_.scene, gripper_, config_, *place, buffers_)))
       found.push_back(*handle);
   }
-  leave_edges_out(found);
+  choose_about_edges(found);
   std::pmr::vector<std::pair<float, std::size_t>> order;  // the most worth first, of equal ones the first
   for (std::size_t k = 0; k < found.size(); ++k) order.emplace_back(-worth(found[k]), k);
   std::sort(order.begin(), order.end());
@@ -189,8 +199,8 @@ std::pmr::vector<FoundHandle> first_handles(const std::pmr::vector<FoundHandle>&
   }
   tbb::parallel_for(std::size_t{0}, first.size(), [&](std::size_t k) {
     const FoundHandle& any = of_object[k].front();
-    const auto object = static_cast<std::size_t>(any.candidate_object);
-    const ObjectShape shape(surfaces, any.guess->points.of(object), any.candidate_object,
+    const auto object = static_cast<std::size_t>(any.candidate.object);
+    const ObjectShape shape(surfaces, any.guess->points.of(object), any.candidate.object,
                             any.guess->objects.center[object]);
     const Chooser chooser(any, shape, surfaces.support, gripper, config, buffers.local());
     first[k] = chooser.first(of_object[k]);

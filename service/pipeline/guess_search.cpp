@@ -52,8 +52,7 @@ Results check_all(const SceneView& scene, const Gripper& gripper, const HandleCh
 FoundHandle scored(const CheckResult& result, const Guess& guess, const Candidate& candidate,
                    const SceneView& scene, const SceneView& sparse) {
   const int object = candidate.object;
-  FoundHandle found{{result.handle, object}, result.margins, &scene, &sparse, &guess, object,
-                    candidate.depth_m};
+  FoundHandle found{{result.handle, object}, result.margins, &scene, &sparse, &guess, candidate};
   found.margins.central = centrality(result.handle, guess.objects.center[static_cast<std::size_t>(object)]);
   found.ranked.handle.score = score(found.margins);
   return found;
@@ -254,8 +253,7 @@ void GuessSearch::run(const std::pmr::vector<std::uint8_t>& wanted, CheckBuffers
         out.count(next[k].segment, fine[k].failure);
         if (fine[k].failure != Failure::kNone) continue;
         out.handles.push_back(scored(fine[k], guess_, next[k], points_, sparse_));
-        // An edge of a thin wall comes first only where no other way is likely: the search for one goes on.
-        if (!fine[k].margins.has_thin_edge()) ++num_handles[static_cast<std::size_t>(next[k].object)];
+        ++num_handles[static_cast<std::size_t>(next[k].object)];
       }
     }
   }

@@ -41,16 +41,18 @@ struct Guess {
 /// A handle whose steadiness has not been looked at: its score is an upper bound.
 struct FoundHandle {
   RankedHandle ranked;
-  HandleMargins margins;          ///< that the score was made of
-  const SceneView* scene;         ///< that it was found in
-  const SceneView* sparse;        ///< the same, sparse
-  const Guess* guess;             ///< the same
-  std::int32_t candidate_object;  ///< its object there
-  float depth_m;                  ///< of the candidate
+  HandleMargins margins;    ///< that the score was made of
+  const SceneView* scene;   ///< that it was found in
+  const SceneView* sparse;  ///< the same, sparse
+  const Guess* guess;       ///< the same
+  Candidate candidate;      ///< that it was found from; its object is the guess's
 
   /// Its place, to be checked again.
   [[nodiscard]] Candidate as_candidate() const {
-    return {ranked.handle.position, ranked.handle.rotation, ranked.handle.segment, candidate_object, depth_m};
+    Candidate there = candidate;
+    there.position = ranked.handle.position;
+    there.rotation = ranked.handle.rotation;
+    return there;
   }
 };
 

@@ -278,7 +278,8 @@ bool Check::check_square(const Contact& low, const Contact& high, bool round) {
   if (is_thin(low, high)) {
     const WallShape wall = fit_wall(local_, between_, top_, gripper_);
     if (margins_.has_thin_edge() && wall.bend_m > kMaxBend) return false;
-    squared = wall.normal;
+    squared =
+        candidate_.is_on_known_wall() ? handle_.rotation.transpose() * candidate_.wall_normal : wall.normal;
     most_off = kMaxThinMisalignment;
   } else if (margins_.has_thin_edge()) {
     return false;  // bent or askew: it takes up more room than a thin wall
@@ -321,8 +322,10 @@ Failure Check::check_contacts() {
   if (!check_square(low, high, input.circle.has_value())) return Failure::kContact;
   set_width_from(low, high);
   margins_.width = (gripper_.aperture_m - handle_.width_m) / (kAmpleRoom * gripper_.aperture_m);
-  margins_.thickness = (handle_.width_m - kThin) / (kThick - kThin);
-  margins_.area = (seen_area() - config_.min_contact_area_m2) / kAmpleArea;
+  if (!candidate_.is_on_known_wall() || !is_thin(low, high)) {
+    margins_.thickness = (handle_.width_m - kThin) / (kThick - kThin);
+    margins_.area = (seen_area() - config_.min_contact_area_m2) / kAmpleArea;
+  }
   margins_.grip_depth = (gripper_.grasp_depth_m - top_) / gripper_.grasp_depth_m;
   return handle_.width_m > gripper_.aperture_m - 0.002f ? Failure::kTooWide : Failure::kNone;
 }

@@ -90,6 +90,10 @@ struct Candidate {
   std::int32_t object = -1;
   /// How far the fingertips go below the object's top at most [m]; the gripper may allow less.
   float depth_m = std::numeric_limits<float>::infinity();
+  /// Of a thin wall between the jaws, as more of it than is there tells; zero: not known.
+  Eigen::Vector3f wall_normal = Eigen::Vector3f::Zero();
+
+  [[nodiscard]] bool is_on_known_wall() const { return !wall_normal.isZero(); }
 };
 
 struct CheckResult {

@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/pipeline/rim_search.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "service/pipeline/cell_order.hpp"
 #include "service/pipeline/near_points.hpp"
+#include "service/pipeline/rim_wall.hpp"
 
 namespace graspd {
 namespace {
@@ -16,12 +17,7 @@ namespace {
 constexpr float kNear = 0.009f;      // around a point, where it is looked whether the surface goes on [m]
 constexpr float kMinOffset = 0.25f;  // of the mean of what is near, in units of kNear: 0.42 at a straight end
 constexpr float kMinUp = 0.5f;       // cosine between the rim's direction and up
-constexpr float kMaxAside = 0.010f;  // of the strip below the rim along it [m]
-constexpr float kMaxAcross = 0.020f;  // and across it [m]
-constexpr float kEdge = 0.005f;       // below the rim, where normals mix both faces and the edge [m]
-constexpr float kMinFacing = 0.7f;    // cosine between a point's normal and the rim's
-constexpr int kMinStrip = 8;          // points
-constexpr float kShallow = 0.5f;      // of the grasp depth: walls that curve away below are met at their rims
+constexpr float kShallow = 0.5f;     // of the grasp depth: walls that curve away below are met at their rims
 
 /// Where the surface with normal n ends at p: the direction in it away from the rest, if any.
 std::optional<Eigen::Vector3f> end_direction(const SearchInput& in, NearPoints& wall,
@@ -32,41 +28,6 @@ std::optional<Eigen::Vector3f> end_direction(const SearchInput& in, NearPoints& 
   const Eigen::Vector3f offset = (sum - sum.dot(n) * n) / static_cast<float>(near.size());
   if (offset.norm() < kMinOffset * kNear) return std::nullopt;
   return -offset.normalized();
-}
-
-/// A place on a rim, where a surface ends upwards.
-struct Rim {
-  Eigen::Vector3f p, n, up;  ///< n: the surface's normal
-};
-
-/// The wall down to depth_m below a rim: axes along the rim, across the wall and down along it. The edge
-/// itself says little: normals there mix both faces. near: the wall's points.
-std::optional<Eigen::Matrix3f> wall_axes(const SearchInput& in, std::span<const std::uint32_t> near,
-                                         const Rim& rim, float depth_m) {
-  const auto& [p, n, up] = rim;
-  const Eigen::Vector3f along = n.cross(up);
-  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-  Eigen::Matrix3f squares = Eigen::Matrix3f::Zero();
-  int size = 0;
-  for (const std::uint32_t i : near) {
-    const Eigen::Vector3f d = in.cloud.point(i) - p;
-    const float below = -up.dot(d);
-    if (below < kEdge || below > depth_m || std::abs(along.dot(d)) > kMaxAside) continue;
-    if (std::abs(n.dot(d)) > kMaxAcross || in.normals.at(i).dot(n) < kMinFacing) continue;
-    sum += d;
-    squares += d * d.transpose();
-    ++size;
-  }
-  if (size < kMinStrip) return std::nullopt;
-  const Eigen::Matrix3f covariance = squares - sum * sum.transpose() / static_cast<float>(size);
-  Eigen::Vector3f across =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f>().computeDirect(covariance).eigenvectors().col(0);
-  if (across.dot(n) < 0) across = -across;
-  Eigen::Matrix3f axes;
-  axes.col(2) = (up.dot(across) * across - up).normalized();
-  axes.col(1) = across;
-  axes.col(0) = across.cross(axes.col(2));
-  return axes;
 }
 
 /// One of the points a cell, the highest.
@@ -94,6 +55,7 @@ std::pmr::vector<Candidate> rim_candidates(const SearchInput& in, std::size_t ob
   NearPoints wall(in.cloud, points);
   const Eigen::Vector3f up =
       in.support ? in.support->plane.normal : (in.cloud.viewpoint - in.objects.center[object]).normalized();
+  const std::optional<VesselAxis> axis = vessel_axis(in, points, up);
   for (const std::uint32_t k : highest_points(in, points, up, 0.5f * config.seed_spacing_m)) {
     const Eigen::Vector3f p = in.cloud.point(k), n = in.normals.at(k);
     const std::int32_t segment = in.segments.of_point[k];
@@ -101,11 +63,12 @@ std::pmr::vector<Candidate> rim_candidates(const SearchInput& in, std::size_t ob
     const Eigen::Vector3f to_sensor = (in.cloud.viewpoint - p).normalized();
     const std::optional<Eigen::Vector3f> end = end_direction(in, wall, p, n);
     if (!end || end->dot(up) < kMinUp) continue;
-    const std::span<const std::uint32_t> near = wall.within(p, gripper.grasp_depth_m + kNear);
+    const auto fitted = RimWall::fit(in, wall.within(p, RimWall::kReach), {p, n, *end}, axis);
+    if (!fitted) continue;
     for (const float depth_m : {gripper.grasp_depth_m, kShallow * gripper.grasp_depth_m}) {
-      const auto axes = wall_axes(in, near, {p, n, *end}, depth_m);
-      if (axes && -axes->col(2).dot(to_sensor) >= config.min_facing_cosine)
-        candidates.push_back({p, *axes, segment, static_cast<std::int32_t>(object), depth_m});
+      const Eigen::Matrix3f axes = fitted->gripper_axes(0.5f * depth_m);
+      if (-axes.col(2).dot(to_sensor) >= config.min_facing_cosine)
+        candidates.push_back({p, axes, segment, static_cast<std::int32_t>(object), depth_m, axes.col(1)});
     }
   }
   return candidates;

@@ -7,6 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+
+#include "service/pipeline/normal_lines.hpp"
 
 namespace graspd {
 namespace {
@@ -28,7 +31,6 @@ constexpr float kTiltLength = 0.05f;  // that makes tilts as large as shifts [m]
 constexpr float kNear = 0.0025f;      // a point that belongs to its slice [m]
 constexpr float kMinNearShare = 0.8f;
 constexpr float kSurelyShare = 0.95f;  // no other axis needs to be tried
-constexpr float kMinSpread = 0.06f;    // of the normals, as a variance: about a quarter of the circle
 constexpr float kMaxRadius = 0.09f;
 constexpr int kMostSlices = 96;
 
@@ -72,29 +74,13 @@ class Walls {
 
   /// Where lines along the normals meet. False where they are too parallel to tell.
   bool meet_lines() {
-    for (const WallPoint& w : walls()) center_ += w.p / static_cast<float>(size_);
-    for (int round = 0; round < 4; ++round) {
-      Matrix2f A = Matrix2f::Zero();
-      Vector2f b = Vector2f::Zero();
-      float sum = 0;
-      for (const WallPoint& w : walls()) {
-        const Vector2f t(-w.normal.y(), w.normal.x());
-        const float away = t.dot(w.p - center_);
-        const float u = round == 0 ? 1 : weight(away, kLineScale);
-        A += u * t * t.transpose();
-        b += u * away * t;
-        sum += u;
-      }
-      const float mean = 0.5f * A.trace(),
-                  spread = mean - std::sqrt(std::max(0.0f, mean * mean - A.determinant()));
-      if (!(spread > kMinSpread * sum)) return false;
-      center_ += A.inverse() * b;
-    }
-    std::size_t near = 0;
-    for (const WallPoint& w : walls())
-      near += std::abs(w.normal.x() * (w.p - center_).y() - w.normal.y() * (w.p - center_).x()) < kNearLine
-                  ? 1
-                  : 0;
+    std::array<NormalLine, kMostPoints> lines;
+    for (std::size_t i = 0; i < size_; ++i) lines[i] = {points_[i].p, points_[i].normal};
+    const auto center = meeting_point({lines.data(), size_}, kLineScale);
+    if (!center) return false;
+    center_ = *center;
+    const auto meets = [&](const NormalLine& line) { return std::abs(line.passes(center_)) < kNearLine; };
+    const auto near = std::count_if(lines.begin(), lines.begin() + static_cast<std::ptrdiff_t>(size_), meets);
     return static_cast<float>(near) >= kMinLineShare * static_cast<float>(size_);
   }
 

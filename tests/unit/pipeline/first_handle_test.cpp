@@ -37,11 +37,7 @@ class Search {
   [[nodiscard]] const std::pmr::vector<FoundHandle>& first() const { return first_; }
   [[nodiscard]] Failure check_again(const FoundHandle& found) const {
     CheckBuffers buffers;
-    const Handle& handle = found.ranked.handle;
-    return check_candidate(*found.scene, gripper_, config_.check,
-                           {handle.position, handle.rotation, handle.segment, found.candidate_object},
-                           buffers)
-        .failure;
+    return check_candidate(*found.scene, gripper_, config_.check, found.as_candidate(), buffers).failure;
   }
 
  private:
