@@ -31,6 +31,10 @@ double own_seconds() {
   return seconds(used.ru_utime) + seconds(used.ru_stime);
 }
 
+bool is_niced() {
+  return getpriority(PRIO_PROCESS, 0) > 0;
+}
+
 }  // namespace
 
 std::vector<int> usable_cores() {
@@ -43,7 +47,7 @@ std::vector<int> usable_cores() {
   return cores;
 }
 
-std::int64_t busy_ticks(std::string_view stat_text, const std::vector<int>& cores) {
+std::int64_t busy_ticks(std::string_view stat_text, const std::vector<int>& cores, bool with_niced) {
   std::istringstream lines{std::string(stat_text)};
   std::int64_t sum = 0;
   for (std::string line; std::getline(lines, line);) {
@@ -53,7 +57,7 @@ std::int64_t busy_ticks(std::string_view stat_text, const std::vector<int>& core
     if (std::ranges::none_of(cores, [&](int core) { return name == "cpu" + std::to_string(core); })) continue;
     std::int64_t ticks = 0;
     for (std::size_t column = kUser; column < kColumns && words >> ticks; ++column)
-      if (column != kNice && column != kIdle && column != kIoWait) sum += ticks;
+      if (column != kIdle && column != kIoWait && (column != kNice || with_niced)) sum += ticks;
   }
   return sum;
 }
@@ -69,7 +73,7 @@ FreeCores::FreeCores() : cores_(usable_cores()), last_(sample()), free_(static_c
 
 FreeCores::Sample FreeCores::sample() const {
   const double ticks_per_s = static_cast<double>(std::max(1L, sysconf(_SC_CLK_TCK)));
-  const auto busy = static_cast<double>(busy_ticks(file_text("/proc/stat"), cores_));
+  const auto busy = static_cast<double>(busy_ticks(file_text("/proc/stat"), cores_, is_niced()));
   return {steady_clock::now(), busy / ticks_per_s, own_seconds()};
 }
 

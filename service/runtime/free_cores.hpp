@@ -37,10 +37,11 @@ class FreeCores {
 /// The numbers of the cores that this process may run on; empty where the kernel does not say.
 [[nodiscard]] std::vector<int> usable_cores();
 
-/// What the kernel's counts in /proc/stat add up to for these cores: all that is not idle, without what
-/// programs of lower priority take (nice), which give way. In the kernel's ticks; lines that are not there
-/// count nothing.
-[[nodiscard]] std::int64_t busy_ticks(std::string_view stat_text, const std::vector<int>& cores);
+/// What the kernel's counts in /proc/stat add up to for these cores: all that is not idle, in the kernel's
+/// ticks. with_niced: also what programs of lower priority (nice) take, which give way to one that is not
+/// niced itself. Lines that are not there count nothing.
+[[nodiscard]] std::int64_t busy_ticks(std::string_view stat_text, const std::vector<int>& cores,
+                                      bool with_niced);
 
 /// Threads that one frame gains by, from 1 to `most`. A helper on a core that others keep busy delays the
 /// frame more than it helps: each stage waits for whatever it was interrupted in. Between the two limits it

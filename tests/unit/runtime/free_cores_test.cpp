@@ -23,20 +23,25 @@ constexpr auto kStat =
     "ctxt 1990473\n";
 
 TEST(FreeCores, AddsUpWhatIsNeitherIdleNorGivesWay) {
-  EXPECT_EQ(busy_ticks(kStat, {0}), 100 + 30 + 6 + 7 + 8)
+  EXPECT_EQ(busy_ticks(kStat, {0}, false), 100 + 30 + 6 + 7 + 8)
       << "not nice, idle, iowait and the guests' parts of user";
-  EXPECT_EQ(busy_ticks(kStat, {1}), 1 + 3 + 6 + 7 + 8);
-  EXPECT_EQ(busy_ticks(kStat, {0, 1}), busy_ticks(kStat, {0}) + busy_ticks(kStat, {1}));
-  EXPECT_EQ(busy_ticks(kStat, {11}), 1000);
-  EXPECT_EQ(busy_ticks(kStat, {2}), 0) << "not there";
-  EXPECT_EQ(busy_ticks(kStat, {}), 0);
+  EXPECT_EQ(busy_ticks(kStat, {1}, false), 1 + 3 + 6 + 7 + 8);
+  EXPECT_EQ(busy_ticks(kStat, {0, 1}, false), busy_ticks(kStat, {0}, false) + busy_ticks(kStat, {1}, false));
+  EXPECT_EQ(busy_ticks(kStat, {11}, false), 1000);
+  EXPECT_EQ(busy_ticks(kStat, {2}, false), 0) << "not there";
+  EXPECT_EQ(busy_ticks(kStat, {}, false), 0);
+}
+
+TEST(FreeCores, ANicedProgramCountsOthersThatAreTooAsBusy) {
+  EXPECT_EQ(busy_ticks(kStat, {0}, true), busy_ticks(kStat, {0}, false) + 20);
+  EXPECT_EQ(busy_ticks(kStat, {11}, true), 1000);
 }
 
 TEST(FreeCores, TakesTextsThatAreCutOffOrEmpty) {
-  EXPECT_EQ(busy_ticks("", {0}), 0);
-  EXPECT_EQ(busy_ticks("cpu0", {0}), 0);
-  EXPECT_EQ(busy_ticks("cpu0 100 20 3", {0}), 103);
-  EXPECT_EQ(busy_ticks("cpu0 100 - 3", {0}), 100);
+  EXPECT_EQ(busy_ticks("", {0}, false), 0);
+  EXPECT_EQ(busy_ticks("cpu0", {0}, false), 0);
+  EXPECT_EQ(busy_ticks("cpu0 100 20 3", {0}, false), 103);
+  EXPECT_EQ(busy_ticks("cpu0 100 - 3", {0}, false), 100);
 }
 
 TEST(FreeCores, AHelperIsWorthHavingWhereMostOfItsCoreIsLeft) {
