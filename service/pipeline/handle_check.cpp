@@ -22,6 +22,7 @@ constexpr float kAmpleRoom = 0.25f;  // share of the aperture left free from whi
 constexpr float kThin = 0.012f, kThick = 0.022f;  // of objects: narrower is doubtful, wider is not [m]
 constexpr float kThinWall = 0.014f;               // and so thin that it must be met squarely [m]
 constexpr float kMaxThinMisalignment = 6.0f;      // within this [degrees]
+constexpr float kWallErrors = 10;                 // that a rim's wall may be off by: neighbours share noise
 constexpr float kMaxBend = 0.0015f;               // of it between the jaws: less than pads yield [m]
 constexpr float kAmpleArea = 5e-4f;               // seen between the jaws, beyond what must be [m2]
 constexpr float kHideMargin =
@@ -274,19 +275,20 @@ bool is_thin(const Contact& low, const Contact& high) {
 /// Whether the jaws would meet the object squarely enough.
 bool Check::check_square(const Contact& low, const Contact& high, bool round) {
   Eigen::Vector3f squared = squared_axis(low, high, round);
-  float most_off = config_.max_misalignment_deg;
+  float most_off = config_.max_misalignment_deg, doubt = 0;
   if (is_thin(low, high)) {
     const WallShape wall = fit_wall(local_, between_, top_, gripper_);
     if (margins_.has_thin_edge() && wall.bend_m > kMaxBend) return false;
     squared =
         candidate_.is_on_known_wall() ? handle_.rotation.transpose() * candidate_.wall_normal : wall.normal;
+    doubt = kWallErrors * candidate_.wall_error_rad;
     most_off = kMaxThinMisalignment;
   } else if (margins_.has_thin_edge()) {
     return false;  // bent or askew: it takes up more room than a thin wall
   }
   squared_ = handle_.rotation * squared;
   const float off = std::acos(std::clamp(squared.y(), -1.0f, 1.0f));
-  margins_.square = 1 - off / radians(config_.max_misalignment_deg);
+  margins_.square = 1 - (off + doubt) / radians(config_.max_misalignment_deg);
   return off <= radians(most_off);
 }
 

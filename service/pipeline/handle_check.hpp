@@ -92,6 +92,7 @@ struct Candidate {
   float depth_m = std::numeric_limits<float>::infinity();
   /// Of a thin wall between the jaws, as more of it than is there tells; zero: not known.
   Eigen::Vector3f wall_normal = Eigen::Vector3f::Zero();
+  float wall_error_rad = 0;  ///< how sure that is (RimWall::error_rad)
 
   [[nodiscard]] bool is_on_known_wall() const { return !wall_normal.isZero(); }
 };

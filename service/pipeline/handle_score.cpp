@@ -20,7 +20,7 @@ float doubt(ContactKind kind) {
     case ContactKind::kFlatEdge:
       return 0.3f;
     case ContactKind::kThinEdge:
-      return 2.5f;
+      return 2.0f;
     case ContactKind::kNone:
       return 10.0f;
   }

@@ -68,7 +68,8 @@ std::pmr::vector<Candidate> rim_candidates(const SearchInput& in, std::size_t ob
     for (const float depth_m : {gripper.grasp_depth_m, kShallow * gripper.grasp_depth_m}) {
       const Eigen::Matrix3f axes = fitted->gripper_axes(0.5f * depth_m);
       if (-axes.col(2).dot(to_sensor) >= config.min_facing_cosine)
-        candidates.push_back({p, axes, segment, static_cast<std::int32_t>(object), depth_m, axes.col(1)});
+        candidates.push_back(
+            {p, axes, segment, static_cast<std::int32_t>(object), depth_m, axes.col(1), fitted->error_rad()});
     }
   }
   return candidates;

@@ -22,6 +22,7 @@ constexpr float kMaxAcross = 0.020f;  // and across it [m]
 constexpr float kMinFacing = 0.7f;    // cosine between a point's normal and the rim's
 constexpr float kMinRoundFacing = 0.5f;
 constexpr float kMinSector = 0.6f;  // cosine of the angle about the axis
+constexpr float kBetween = 0.2f;    // of kDeep: about where jaws meet the wall
 constexpr float kScale = 0.003f;    // of the weights [m]
 constexpr std::size_t kMinPoints = 8;
 
@@ -32,24 +33,42 @@ struct Sample {
   float out;
 };
 
+template <int n>
+struct Fit {
+  Eigen::Matrix<float, n, 1> c;
+  Eigen::Matrix<float, n, n> covariance;  ///< of c, as if the noise of points were their own
+};
+
 /// Least squares, reweighted by Cauchy weights.
 template <int n>
-Eigen::Matrix<float, n, 1> fit_samples(const std::pmr::vector<Sample<n>>& samples) {
+Fit<n> fit_samples(const std::pmr::vector<Sample<n>>& samples) {
   constexpr int kRounds = 3;
   constexpr float kRidge = 1e-4f;  // on the scaled normal equations
   Eigen::Matrix<float, n, 1> c = Eigen::Matrix<float, n, 1>::Zero();
+  Eigen::Matrix<float, n, n> A;
+  float variance = 0;
   for (int round = 0; round < kRounds; ++round) {
-    Eigen::Matrix<float, n, n> A = kRidge * Eigen::Matrix<float, n, n>::Identity();
+    A = kRidge * Eigen::Matrix<float, n, n>::Identity();
     Eigen::Matrix<float, n, 1> b = Eigen::Matrix<float, n, 1>::Zero();
+    float sum = 0, squares = 0;
     for (const Sample<n>& s : samples) {
-      const float error = round == 0 ? 0 : (s.out - s.row.dot(c)) / kScale;
-      const Eigen::Matrix<float, n, 1> weighted = s.row / (1 + error * error);
-      A += weighted * s.row.transpose();
-      b += weighted * s.out;
+      const float off = s.out - s.row.dot(c), error = round == 0 ? 0 : off / kScale;
+      const float weight = 1 / (1 + error * error);
+      A += weight * s.row * s.row.transpose();
+      b += weight * s.out * s.row;
+      sum += weight;
+      squares += weight * off * off;
     }
     c = A.ldlt().solve(b);
+    variance = squares / sum;
   }
-  return c;
+  return {c, variance * A.inverse()};
+}
+
+/// Standard error of what a row takes from the coefficients.
+template <int n>
+float standard_error(const Fit<n>& fit, const Eigen::Matrix<float, n, 1>& row) {
+  return std::sqrt(std::max(0.0f, row.dot(fit.covariance * row)));
 }
 
 }  // namespace
@@ -116,9 +135,10 @@ std::optional<RimWall> RimWall::fit_round(const SearchInput& in, std::span<const
     samples.push_back({{1, z, z * z}, side * (r - radius)});
   }
   if (samples.size() < kMinPoints) return std::nullopt;
-  const Eigen::Vector3f c = fit_samples(samples);
-  wall.slopes_.y() = c[1] / kDeep;
-  wall.changes_.y() = 2 * c[2] / (kDeep * kDeep);
+  const Fit<3> fit = fit_samples(samples);
+  wall.slopes_.y() = fit.c[1] / kDeep;
+  wall.changes_.y() = 2 * fit.c[2] / (kDeep * kDeep);
+  wall.error_rad_ = standard_error<3>(fit, {0, 1, 2 * kBetween}) / kDeep;
   return wall;
 }
 
@@ -141,9 +161,14 @@ std::optional<RimWall> RimWall::fit_free(const SearchInput& in, std::span<const 
     sample.out = out;
   }
   if (samples.size() < kMinPoints) return std::nullopt;
-  const Eigen::Matrix<float, 6, 1> c = fit_samples(samples);
+  const Fit<6> fit = fit_samples(samples);
+  const Eigen::Matrix<float, 6, 1>& c = fit.c;
   wall.slopes_ = {c[1] / kMaxAside, c[2] / kDeep};
   wall.changes_ = {c[5] / (kMaxAside * kDeep), 2 * c[4] / (kDeep * kDeep)};
+  Eigen::Matrix<float, 6, 1> aside, down;
+  aside << 0, 1, 0, 0, 0, kBetween;
+  down << 0, 0, 1, 0, 2 * kBetween, 0;
+  wall.error_rad_ = std::hypot(standard_error(fit, aside) / kMaxAside, standard_error(fit, down) / kDeep);
   return wall;
 }
 

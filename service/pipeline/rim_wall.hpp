@@ -45,6 +45,10 @@ class RimWall {
   /// rim's), and down along it there.
   [[nodiscard]] Eigen::Matrix3f gripper_axes(float below_m) const;
 
+  /// Standard error of the normal's direction [rad], as if every point had noise of its own: noise that
+  /// neighbours share makes the true one several times as large.
+  [[nodiscard]] float error_rad() const { return error_rad_; }
+
  private:
   [[nodiscard]] static std::optional<RimWall> fit_round(const SearchInput& in,
                                                         std::span<const std::uint32_t> near, const Rim& rim,
@@ -56,6 +60,7 @@ class RimWall {
   // How much farther out the wall is, a metre along the rim and a metre down, at the place; and how much
   // these change a metre farther down.
   Eigen::Vector2f slopes_ = Eigen::Vector2f::Zero(), changes_ = Eigen::Vector2f::Zero();
+  float error_rad_ = 0;
 };
 
 }  // namespace graspd

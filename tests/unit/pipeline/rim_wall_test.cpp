@@ -138,6 +138,27 @@ TEST(RimWall, NoiseOfASensorTurnsItByFewDegrees) {
   EXPECT_LT(mean_error(plate(), kNoise, false), 1.5f);
 }
 
+TEST(RimWall, KnowsHowSureItIs) {
+  const auto error = [](float noise_m, std::size_t every, bool with_axis) {
+    const Wall wall = wall_of(mug(0.04f, 1), -1.5f, 1.5f, noise_m, 1);
+    const Eigen::Vector3f p(0.04f, 0, kHeight);
+    std::vector<std::uint32_t> some;
+    for (const std::uint32_t i : wall.near(p))
+      if (i % every == 0) some.push_back(i);
+    const auto axis = with_axis ? std::optional(VesselAxis{Eigen::Vector3f::Zero(), Eigen::Vector3f::UnitZ()})
+                                : std::optional<VesselAxis>();
+    const Rim rim{p, Eigen::Vector3f::UnitX(), Eigen::Vector3f::UnitZ()};
+    return RimWall::fit(wall.input(), some, rim, axis)->error_rad();
+  };
+  for (const bool with_axis : {false, true}) {
+    EXPECT_LT(error(0.0005f, 1, with_axis), 0.5f * error(0.0015f, 1, with_axis)) << "less noise";
+    EXPECT_LT(error(0.001f, 1, with_axis), 0.7f * error(0.001f, 7, with_axis)) << "more points";
+    EXPECT_GT(error(0.001f, 1, with_axis), 0.001f);
+    EXPECT_LT(error(0.001f, 1, with_axis), 0.03f);
+  }
+  EXPECT_LT(error(0.001f, 1, true), error(0.001f, 1, false)) << "an axis leaves less to be found out";
+}
+
 TEST(RimWall, TheHandComesDownAlongTheWall) {
   const Wall wall = wall_of(mug(0.04f, 1), -1, 1, 0, 1);
   const Eigen::Vector3f p(0.04f, 0, kHeight);
