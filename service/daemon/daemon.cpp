@@ -46,10 +46,10 @@ Daemon::Daemon(ServiceConfig config, Bus& bus, const Clock& clock, Log& log, Con
       log_(log),
       config_(std::make_shared<const ServiceConfig>(std::move(config))),
       control_(or_unchanged(std::move(load), *config_)),
-      helpers_(tbb::global_control::max_allowed_parallelism,
-               static_cast<std::size_t>(threads_a_frame(*config_))),
-      threads_(threads_a_frame(*config_)),
-      arena_(threads_a_frame(*config_) - 1 + config_->workers, static_cast<unsigned>(config_->workers)),
+      most_threads_(threads_a_frame(*config_)),
+      helpers_(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(most_threads_)),
+      threads_(most_threads_),
+      arena_(most_threads_ - 1 + config_->workers, static_cast<unsigned>(config_->workers)),
       health_(clock),
       next_status_(clock.now()),
       table_(queue_, clock, log,
@@ -222,16 +222,15 @@ void Daemon::look_at_clock() {
 
 void Daemon::look_at_cores() {
   const double free_cores = free_cores_.look();
-  const int most = threads_a_frame(*config_);
-  const int threads = threads_worth_having(free_cores, threads_, most);
+  const int threads = threads_worth_having(free_cores, threads_, most_threads_);
   if (threads == threads_) return;
   threads_ = threads;
   fewer_helpers_.reset();
-  if (threads < most)
+  if (threads < most_threads_)
     fewer_helpers_.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
-  log_.info(
-      "threads_a_frame",
-      {{"threads", threads}, {"most", most}, {"cores_left_percent", static_cast<int>(100 * free_cores)}});
+  log_.info("threads_a_frame", {{"threads", threads},
+                                {"most", most_threads_},
+                                {"cores_left_percent", static_cast<int>(100 * free_cores)}});
 }
 
 Clock::TimePoint Daemon::arrival_of(const Packet& packet) {

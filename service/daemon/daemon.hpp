@@ -96,6 +96,7 @@ class Daemon {
   SegmentationRequests requests_;
   std::set<std::string> subscriptions_;
   std::deque<control_t> controls_;  // that have arrived and are not obeyed yet
+  const int most_threads_;          // that a frame may have
   tbb::global_control helpers_;     // one thread less than a frame may have; all workers share them
   std::optional<tbb::global_control> fewer_helpers_;  // while others keep cores busy
   FreeCores free_cores_;

@@ -13,6 +13,7 @@
 #include <string>
 
 #include "service/runtime/file_text.hpp"
+#include "service/runtime/process_usage.hpp"
 
 namespace graspd {
 namespace {
@@ -21,15 +22,6 @@ using std::chrono::steady_clock;
 
 // proc_stat(5): the columns after a core's name.
 enum Column : std::size_t { kUser, kNice, kSystem, kIdle, kIoWait, kIrq, kSoftIrq, kSteal, kColumns };
-
-double own_seconds() {
-  rusage used{};
-  getrusage(RUSAGE_SELF, &used);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return seconds(used.ru_utime) + seconds(used.ru_stime);
-}
 
 bool is_niced() {
   return getpriority(PRIO_PROCESS, 0) > 0;
@@ -74,7 +66,7 @@ FreeCores::FreeCores() : cores_(usable_cores()), last_(sample()), free_(static_c
 FreeCores::Sample FreeCores::sample() const {
   const double ticks_per_s = static_cast<double>(std::max(1L, sysconf(_SC_CLK_TCK)));
   const auto busy = static_cast<double>(busy_ticks(file_text("/proc/stat"), cores_, is_niced()));
-  return {steady_clock::now(), busy / ticks_per_s, own_seconds()};
+  return {steady_clock::now(), busy / ticks_per_s, process_cpu_seconds()};
 }
 
 double FreeCores::look() {

@@ -43,6 +43,12 @@ std::int64_t status_number(std::string_view status_text, std::string_view key) {
   return number;
 }
 
+double process_cpu_seconds() {
+  rusage times{};
+  getrusage(RUSAGE_SELF, &times);
+  return seconds_of(times.ru_utime) + seconds_of(times.ru_stime);
+}
+
 ProcessUsage ProcessUsageMeter::measure(Clock::TimePoint now) {
   ProcessUsage usage;
   const std::string text = file_text("/proc/self/status");
@@ -50,9 +56,7 @@ ProcessUsage ProcessUsageMeter::measure(Clock::TimePoint now) {
   usage.peak_rss_bytes = status_bytes(text, "VmHWM");
   usage.threads = static_cast<int>(status_number(text, "Threads"));
   usage.descriptors = open_descriptors();
-  rusage times{};
-  getrusage(RUSAGE_SELF, &times);
-  const double cpu_s = seconds_of(times.ru_utime) + seconds_of(times.ru_stime);
+  const double cpu_s = process_cpu_seconds();
   const double elapsed_s = seconds(now - last_time_);
   if (started_ && elapsed_s > 0) usage.cpu = (cpu_s - last_cpu_s_) / elapsed_s;
   last_cpu_s_ = cpu_s;

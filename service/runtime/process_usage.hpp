@@ -17,6 +17,9 @@ struct ProcessUsage {
   int descriptors = 0;  ///< open files and sockets
 };
 
+/// Processor time that this process has used so far, all threads and the kernel's for it [s].
+[[nodiscard]] double process_cpu_seconds();
+
 class ProcessUsageMeter {
  public:
   [[nodiscard]] ProcessUsage measure(Clock::TimePoint now);
