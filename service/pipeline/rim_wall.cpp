@@ -21,7 +21,7 @@ constexpr float kMaxAside = 0.030f;   // of them along it [m]
 constexpr float kMaxAcross = 0.020f;  // and across it [m]
 constexpr float kMinFacing = 0.7f;    // cosine between a point's normal and the rim's
 constexpr float kMinRoundFacing = 0.5f;
-constexpr float kMinSector = 0.6f;  // cosine of the angle about the axis
+constexpr float kMinSector = 0.2f;  // cosine of the angle about the axis
 constexpr float kBetween = 0.2f;    // of kDeep: about where jaws meet the wall
 constexpr float kScale = 0.003f;    // of the weights [m]
 constexpr std::size_t kMinPoints = 8;
@@ -37,6 +37,7 @@ template <int n>
 struct Fit {
   Eigen::Matrix<float, n, 1> c;
   Eigen::Matrix<float, n, n> covariance;  ///< of c, as if the noise of points were their own
+  float variance;                         ///< of what is left [m^2]
 };
 
 /// Least squares, reweighted by Cauchy weights.
@@ -62,7 +63,22 @@ Fit<n> fit_samples(const std::pmr::vector<Sample<n>>& samples) {
     c = A.ldlt().solve(b);
     variance = squares / sum;
   }
-  return {c, variance * A.inverse()};
+  return {c, variance * A.inverse(), variance};
+}
+
+/// A wall's profile, straight unless a curve fits it clearly better: one through the noise on a straight wall
+/// is easily 10 degrees off at its end.
+Fit<3> fit_profile(const std::pmr::vector<Sample<3>>& samples) {
+  constexpr float kClearly = 1.08f;  // of the variances
+  std::pmr::vector<Sample<2>> straight_samples;
+  straight_samples.reserve(samples.size());
+  for (const Sample<3>& s : samples) straight_samples.push_back({s.row.head<2>(), s.out});
+  const Fit<2> straight = fit_samples(straight_samples);
+  const Fit<3> curved = fit_samples(samples);
+  if (straight.variance > kClearly * curved.variance) return curved;
+  Fit<3> fit{{straight.c[0], straight.c[1], 0}, Eigen::Matrix3f::Zero(), straight.variance};
+  fit.covariance.topLeftCorner<2, 2>() = straight.covariance;
+  return fit;
 }
 
 /// Standard error of what a row takes from the coefficients.
@@ -135,7 +151,7 @@ std::optional<RimWall> RimWall::fit_round(const SearchInput& in, std::span<const
     samples.push_back({{1, z, z * z}, side * (r - radius)});
   }
   if (samples.size() < kMinPoints) return std::nullopt;
-  const Fit<3> fit = fit_samples(samples);
+  const Fit<3> fit = fit_profile(samples);
   wall.slopes_.y() = fit.c[1] / kDeep;
   wall.changes_.y() = 2 * fit.c[2] / (kDeep * kDeep);
   wall.error_rad_ = standard_error<3>(fit, {0, 1, 2 * kBetween}) / kDeep;

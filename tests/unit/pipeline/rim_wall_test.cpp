@@ -138,6 +138,24 @@ TEST(RimWall, NoiseOfASensorTurnsItByFewDegrees) {
   EXPECT_LT(mean_error(plate(), kNoise, false), 1.5f);
 }
 
+TEST(RimWall, NoiseDoesNotBendAStraightWall) {
+  constexpr float kNoise = 0.003f;
+  const Rim rim{{0.04f, 0, kHeight}, Eigen::Vector3f::UnitX(), Eigen::Vector3f::UnitZ()};
+  const VesselAxis axis{Eigen::Vector3f::Zero(), Eigen::Vector3f::UnitZ()};
+  int num_straight = 0;
+  for (std::uint32_t seed = 1; seed <= 20; ++seed) {
+    const Wall wall = wall_of(mug(0.04f, 1), -1.5f, 1.5f, kNoise, seed);
+    const auto fitted = RimWall::fit(wall.input(), wall.near(rim.p), rim, axis);
+    ASSERT_TRUE(fitted);
+    const auto normal = [&](float below_m) -> Eigen::Vector3f {
+      return fitted->gripper_axes(below_m).col(1);
+    };
+    num_straight += normal(0).isApprox(normal(0.04f), 1e-6f) ? 1 : 0;
+    EXPECT_GT(normal(0.015f).x(), 0.99f) << "within 8 degrees, seed " << seed;
+  }
+  EXPECT_GE(num_straight, 18) << "of 20";
+}
+
 TEST(RimWall, KnowsHowSureItIs) {
   const auto error = [](float noise_m, std::size_t every, bool with_axis) {
     const Wall wall = wall_of(mug(0.04f, 1), -1.5f, 1.5f, noise_m, 1);
