@@ -7,7 +7,8 @@
 namespace graspd {
 
 CoarseSurface::CoarseSurface(const PointCloud& cloud, float leaf_size_m)
-    : cloud_(downsample(cloud, {leaf_size_m}).cloud),
+    : leaf_size_m_(leaf_size_m),
+      cloud_(downsample(cloud, {leaf_size_m}).cloud),
       search_(cloud_, {2 * leaf_size_m}),
       has_normal_(cloud_.size()),
       normals_(cloud_.size(), Eigen::Vector3f::Zero()) {}

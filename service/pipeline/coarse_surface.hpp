@@ -23,6 +23,7 @@ class CoarseSurface {
 
   [[nodiscard]] const PointCloud& cloud() const { return cloud_; }
   [[nodiscard]] std::size_t size() const { return cloud_.size(); }
+  [[nodiscard]] float leaf_size_m() const { return leaf_size_m_; }
 
   /// Whether the normals of all points with wanted[i] != 0 are there.
   [[nodiscard]] bool has(const std::pmr::vector<std::uint8_t>& wanted) const;
@@ -34,6 +35,7 @@ class CoarseSurface {
   [[nodiscard]] Neighborhoods neighborhoods(const std::pmr::vector<std::uint8_t>& wanted) const;
 
  private:
+  float leaf_size_m_;
   PointCloud cloud_;
   NeighborhoodSearch search_;
   std::pmr::vector<std::uint8_t> has_normal_;

@@ -275,9 +275,8 @@ struct PointKernels {
                       MomentLanes& out);
   /// Normals of the planes through neighbourhoods, from their moments; zero where there is no plane.
   void (*solve_planes)(const MomentLanes& moments, NormalLanes& normals);
-  /// Points of the sample nearer to the plane than its thickness and with normals like its own, less those
-  /// more than three times the thickness behind it.
-  int (*score_plane)(const PlaneTest& test, const PlaneSample& sample);
+  /// Points of the sample nearer to the plane than its thickness and with normals like its own.
+  int (*count_on_plane)(const PlaneTest& test, const PlaneSample& sample);
   /// How many of n points, by their indices, have a normal with a cosine to that of the point s less than the
   /// limit. Indices as of a NeighborList.
   std::size_t (*count_bent)(const NormalArrays& normals, std::uint32_t s, float limit,

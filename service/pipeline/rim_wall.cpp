@@ -74,7 +74,7 @@ Fit<3> fit_profile(const std::pmr::vector<Sample<3>>& samples) {
   straight_samples.reserve(samples.size());
   for (const Sample<3>& s : samples) straight_samples.push_back({s.row.head<2>(), s.out});
   const Fit<2> straight = fit_samples(straight_samples);
-  const Fit<3> curved = fit_samples(samples);
+  Fit<3> curved = fit_samples(samples);
   if (straight.variance > kClearly * curved.variance) return curved;
   Fit<3> fit{{straight.c[0], straight.c[1], 0}, Eigen::Matrix3f::Zero(), straight.variance};
   fit.covariance.topLeftCorner<2, 2>() = straight.covariance;

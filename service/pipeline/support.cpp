@@ -10,17 +10,14 @@
 #include <cmath>
 #include <cstring>
 #include <numbers>
-#include <random>
 
 #include "service/pipeline/coarse_surface.hpp"
-#include "service/pipeline/point_kernels.hpp"
+#include "service/pipeline/plane_search.hpp"
 #include "service/pipeline/union_find.hpp"
 
 namespace graspd {
 namespace {
 
-constexpr std::size_t kSampleSize = 2000;    // points that hypotheses are scored on
-constexpr std::size_t kFewTimes = 5;         // as many: all are prepared at once, most will be needed
 constexpr std::size_t kScatterSize = 10000;  // points that the scatter is measured on
 
 /// Of each point of a cloud.
@@ -45,74 +42,6 @@ std::pmr::vector<std::uint8_t> points_within(const RawVector<float>& heights, fl
   for (std::size_t i = 0; i < heights.size(); ++i) is_within[i] = std::abs(heights[i]) < distance_m ? 1 : 0;
   return is_within;
 }
-
-struct Sample {
-  PointCloud points;
-  Normals normals;
-};
-
-/// Every k-th point: voxels are spread evenly over surfaces, so that this is too.
-Sample take_sample(CoarseSurface& coarse) {
-  const std::size_t step = std::max<std::size_t>(1, coarse.size() / kSampleSize);
-  std::pmr::vector<std::uint8_t> wanted(coarse.size(), step < kFewTimes ? 1 : 0);
-  for (std::size_t i = 0; i < coarse.size(); i += step) wanted[i] = 1;
-  coarse.prepare(wanted);
-  Sample sample;
-  for (std::size_t i = 0; i < coarse.size(); i += step) {
-    sample.points.push_back(coarse.cloud().point(i));
-    sample.normals.x.push_back(coarse.normals().x[i]);
-    sample.normals.y.push_back(coarse.normals().y[i]);
-    sample.normals.z.push_back(coarse.normals().z[i]);
-  }
-  return sample;
-}
-
-/// Inliers less the points that lie behind the plane, where a support that hides what is behind it has none.
-int plane_score(const Sample& sample, const Plane& plane, float thickness_m, float min_cosine) {
-  const PointCloud& points = sample.points;
-  const Eigen::Vector3f& n = plane.normal;
-  return point_kernels().score_plane(
-      {{n.x(), n.y(), n.z()}, plane.offset_m, thickness_m, min_cosine},
-      {points.x.data(), points.y.data(), points.z.data(), sample.normals.arrays(), points.size()});
-}
-
-std::optional<Plane> plane_through(const Sample& sample, const std::array<std::size_t, 3>& at,
-                                   float min_cosine, const Eigen::Vector3f& viewpoint) {
-  const Eigen::Vector3f a = sample.points.point(at[0]);
-  Eigen::Vector3f normal = (sample.points.point(at[1]) - a).cross(sample.points.point(at[2]) - a);
-  if (normal.norm() < 1e-6f) return std::nullopt;
-  normal.normalize();
-  if (normal.dot(viewpoint - a) < 0) normal = -normal;
-  for (const std::size_t i : at)
-    if (normal.dot(sample.normals.at(i)) < min_cosine) return std::nullopt;
-  return Plane{normal, -normal.dot(a)};
-}
-
-std::optional<Plane> best_hypothesis(const Sample& sample, const SupportConfig& config, float min_cosine,
-                                     const Eigen::Vector3f& viewpoint) {
-  if (sample.points.size() < 3) return std::nullopt;
-  std::minstd_rand random(1);
-  std::pmr::vector<Plane> planes;
-  for (int trial = 0; trial < 20 * config.hypotheses && static_cast<int>(planes.size()) < config.hypotheses;
-       ++trial) {
-    std::array<std::size_t, 3> at{};
-    for (std::size_t& i : at) i = random() % sample.points.size();
-    if (const auto plane = plane_through(sample, at, min_cosine, viewpoint)) planes.push_back(*plane);
-  }
-  std::pmr::vector<int> scores(planes.size());
-  tbb::parallel_for(std::size_t{0}, planes.size(), [&](std::size_t i) {
-    scores[i] = plane_score(sample, planes[i], config.thickness_m, min_cosine);
-  });
-  const auto best = std::max_element(scores.begin(), scores.end());
-  if (best == scores.end() || *best <= 0) return std::nullopt;
-  return planes[static_cast<std::size_t>(best - scores.begin())];
-}
-
-/// What makes a point one of a plane's.
-struct PlaneLimits {
-  float thickness_m;
-  float min_cosine;
-};
 
 /// Least squares over the inliers; returns their number.
 std::size_t refine(CoarseSurface& coarse, const PlaneLimits& limits, Plane& plane) {
@@ -280,7 +209,7 @@ std::optional<Support> find_support(const PointCloud& cloud, const SupportConfig
   CoarseSurface coarse(cloud, config.leaf_size_m);
   const PlaneLimits limits{config.thickness_m,
                            std::cos(config.max_normal_angle_deg * std::numbers::pi_v<float> / 180)};
-  const auto hypothesis = best_hypothesis(take_sample(coarse), config, limits.min_cosine, cloud.viewpoint);
+  const auto hypothesis = find_plane(coarse, config.hypotheses, limits, cloud.viewpoint);
   if (!hypothesis) return std::nullopt;
   Support support;
   const auto upper_points =

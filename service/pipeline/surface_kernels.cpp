@@ -108,17 +108,16 @@ std::size_t copy_inside(const float (&min)[3], const float (&max)[3], const Poin
   return n;
 }
 
-int score_plane(const PlaneTest& test, const PlaneSample& sample) {
+int count_on_plane(const PlaneTest& test, const PlaneSample& sample) {
   const float nx = test.normal[0], ny = test.normal[1], nz = test.normal[2];
   const NormalArrays& normals = sample.normals;
-  int score = 0;
+  int num = 0;
   for (std::size_t i = 0; i < sample.size; ++i) {
     const float height = nx * sample.x[i] + ny * sample.y[i] + nz * sample.z[i] + test.offset;
     const float cosine = nx * normals.x[i] + ny * normals.y[i] + nz * normals.z[i];
-    score += int{std::abs(height) < test.thickness} & int{cosine > test.min_cosine};
-    score -= int{height < -3 * test.thickness};
+    num += int{std::abs(height) < test.thickness} & int{cosine > test.min_cosine};
   }
-  return score;
+  return num;
 }
 
 std::size_t count_bent(const NormalArrays& normals, std::uint32_t s, float limit,

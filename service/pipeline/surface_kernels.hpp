@@ -13,7 +13,7 @@ void copy_chosen(const float* x, const float* y, const float* z, const std::uint
                  const ChosenPoints& out);
 std::size_t copy_inside(const float (&min)[3], const float (&max)[3], const PointRange& points,
                         std::span<const PointSpan> spans, const LocalOutput& out);
-int score_plane(const PlaneTest& test, const PlaneSample& sample);
+int count_on_plane(const PlaneTest& test, const PlaneSample& sample);
 void solve_planes(const MomentLanes& moments, NormalLanes& normals);
 std::size_t count_bent(const NormalArrays& normals, std::uint32_t s, float limit,
                        const std::uint32_t* indices, std::size_t n);

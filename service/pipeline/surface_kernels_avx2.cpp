@@ -152,33 +152,30 @@ GRASPD_AVX2 std::size_t copy_inside(const float (&min)[3], const float (&max)[3]
   return n;
 }
 
-GRASPD_AVX2 int score_plane(const PlaneTest& test, const PlaneSample& sample) {
+GRASPD_AVX2 int count_on_plane(const PlaneTest& test, const PlaneSample& sample) {
   const Vectors normal{_mm256_set1_ps(test.normal[0]), _mm256_set1_ps(test.normal[1]),
                        _mm256_set1_ps(test.normal[2])};
   const __m256 offset = _mm256_set1_ps(test.offset), thickness = _mm256_set1_ps(test.thickness),
-               behind = _mm256_set1_ps(-3 * test.thickness), least = _mm256_set1_ps(test.min_cosine),
-               sign = _mm256_set1_ps(-0.0f);
+               least = _mm256_set1_ps(test.min_cosine), sign = _mm256_set1_ps(-0.0f);
   const NormalArrays& normals = sample.normals;
-  __m256i score = _mm256_setzero_si256();
+  __m256i num = _mm256_setzero_si256();
   std::size_t i = 0;
   for (; i + 8 <= sample.size; i += 8) {
     const __m256 height = _mm256_add_ps(normal.dot(sample.x + i, sample.y + i, sample.z + i), offset);
     const __m256 cosine = normal.dot(normals.x + i, normals.y + i, normals.z + i);
     const __m256 is_near = _mm256_cmp_ps(_mm256_andnot_ps(sign, height), thickness, _CMP_LT_OQ),
-                 is_alike = _mm256_cmp_ps(cosine, least, _CMP_GT_OQ),
-                 is_behind = _mm256_cmp_ps(height, behind, _CMP_LT_OQ);
+                 is_alike = _mm256_cmp_ps(cosine, least, _CMP_GT_OQ);
     // A mask is -1 in each lane.
-    score = _mm256_sub_epi32(score, _mm256_castps_si256(_mm256_and_ps(is_near, is_alike)));
-    score = _mm256_add_epi32(score, _mm256_castps_si256(is_behind));
+    num = _mm256_sub_epi32(num, _mm256_castps_si256(_mm256_and_ps(is_near, is_alike)));
   }
   alignas(32) std::int32_t lanes[8];
-  _mm256_store_si256(reinterpret_cast<__m256i*>(lanes), score);
+  _mm256_store_si256(reinterpret_cast<__m256i*>(lanes), num);
   const PlaneSample rest{sample.x + i,
                          sample.y + i,
                          sample.z + i,
                          {normals.x + i, normals.y + i, normals.z + i},
                          sample.size - i};
-  return std::accumulate(lanes, lanes + 8, portable_kernels().score_plane(test, rest));
+  return std::accumulate(lanes, lanes + 8, portable_kernels().count_on_plane(test, rest));
 }
 
 GRASPD_AVX2 void solve_planes(const MomentLanes& moments, NormalLanes& normals) {

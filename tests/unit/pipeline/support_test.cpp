@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "service/pipeline/downsample.hpp"
 #include "tests/support/clouds.hpp"
@@ -148,6 +150,55 @@ TEST(Support, TheTableRatherThanTheLargerFloorBelow) {
     expect_plane(support, Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Zero());
     expect_points(s, *support, 1, 0.010);
   }
+}
+
+/// Range noise that grows with the square of the distance, as that of cameras with a baseline does.
+PointCloud with_growing_noise(const PointCloud& cloud, float sigma_at_1m) {
+  std::mt19937 random(1);
+  std::normal_distribution<float> noise(0, sigma_at_1m);
+  PointCloud result = cloud;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Eigen::Vector3f ray = cloud.point(i) - cloud.viewpoint;
+    const Eigen::Vector3f p = cloud.point(i) + noise(random) * ray.norm() * ray;
+    result.x[i] = p.x();
+    result.y[i] = p.y();
+    result.z[i] = p.z();
+  }
+  return result;
+}
+
+TEST(Support, TheTableBeforeAFloorTooFarToBeMeasuredWell) {
+  // From 30 degrees above the table more of the floor behind it is seen than of the table: all of it is
+  // behind the table's plane, and too rough for a plane of its own.
+  AnalyticScene scene =
+      on_table({standing_box(0, 0, {0.8, 0.5, 0.03}), standing_box(0.05, 0, {0.05, 0.1, 0.08})});
+  scene.solids[1].T_scene_solid.translation().z() = -0.015;
+  scene.solids[0].T_scene_solid.translation().z() = -0.7;
+  scene.camera = {looking_at({0, -0.75, 0.43}, {0, 0, 0}), 320, 240, 260};
+  RenderedScene rendered = render(scene);
+  rendered.cloud = with_growing_noise(finite_points(rendered.cloud), 0.004f);
+  const auto below = static_cast<std::size_t>(
+      std::count_if(rendered.cloud.z.begin(), rendered.cloud.z.end(), [&](float z) { return z < -0.3f; }));
+  EXPECT_GT(2 * below, rendered.cloud.size());
+  const auto support = find_support(rendered.cloud, {});
+  expect_plane(support, Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Zero());
+}
+
+TEST(Support, WhatIsSeenThroughIsNone) {
+  // The tops of blocks in rows, 6 cm wide and 4 cm apart, of which more is seen than of the table between
+  // them.
+  PointCloud cloud;
+  cloud.viewpoint = {0, 0, 10};
+  const PointCloud places = grid_patch({-0.3f, -0.3f, 0}, {0.006f, 0, 0}, {0, 0.006f, 0}, 100, 100);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const bool is_top = i % 10 < 6;
+    cloud.push_back(places.point(i) + (is_top ? 0.08f : 0) * Eigen::Vector3f::UnitZ());
+  }
+  SupportConfig config;
+  config.leaf_size_m = 0.006f;
+  const auto support = find_support(cloud, config);
+  ASSERT_TRUE(support);
+  EXPECT_NEAR(support->plane.height({0, 0, 0}), 0, 0.001f) << "not the tops";
 }
 
 TEST(Support, TheSameCloudGivesTheSamePlane) {

@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "service/pipeline/plane_search.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <bitset>
+#include <cmath>
+#include <numeric>
+#include <random>
+
+#include "service/pipeline/point_kernels.hpp"
+
+namespace graspd {
+namespace {
+
+constexpr std::size_t kSampleSize = 2000;  // points that hypotheses are scored on
+constexpr std::size_t kFewTimes = 5;       // as many: all are prepared at once, most will be needed
+
+struct Sample {
+  PointCloud points;
+  Normals normals;
+  float spacing_m;  ///< of the points on a surface
+};
+
+/// Every k-th point: voxels are spread evenly over surfaces, so that this is too.
+Sample take_sample(CoarseSurface& coarse) {
+  const std::size_t step = std::max<std::size_t>(1, coarse.size() / kSampleSize);
+  std::pmr::vector<std::uint8_t> wanted(coarse.size(), step < kFewTimes ? 1 : 0);
+  for (std::size_t i = 0; i < coarse.size(); i += step) wanted[i] = 1;
+  coarse.prepare(wanted);
+  Sample sample;
+  sample.spacing_m = coarse.leaf_size_m() * std::sqrt(static_cast<float>(step));
+  for (std::size_t i = 0; i < coarse.size(); i += step) {
+    sample.points.push_back(coarse.cloud().point(i));
+    sample.normals.x.push_back(coarse.normals().x[i]);
+    sample.normals.y.push_back(coarse.normals().y[i]);
+    sample.normals.z.push_back(coarse.normals().z[i]);
+  }
+  return sample;
+}
+
+/// Where the points of a plane are, in square cells.
+class Extent {
+ public:
+  Extent(const Sample& sample, const Plane& plane, const PlaneLimits& limits)
+      : u_(plane.normal.unitOrthogonal()), v_(plane.normal.cross(u_)), cell_m_(kSpacings * sample.spacing_m) {
+    Eigen::Vector2f sum = Eigen::Vector2f::Zero();
+    std::pmr::vector<Eigen::Vector2f> places;
+    for (std::size_t i = 0; i < sample.points.size(); ++i) {
+      const Eigen::Vector3f p = sample.points.point(i);
+      if (std::abs(plane.height(p)) >= limits.thickness_m ||
+          plane.normal.dot(sample.normals.at(i)) <= limits.min_cosine)
+        continue;
+      places.emplace_back(u_.dot(p), v_.dot(p));
+      sum += places.back();
+    }
+    center_ = sum / static_cast<float>(std::max<std::size_t>(1, places.size()));
+    for (const Eigen::Vector2f& place : places)
+      if (const auto cell = cell_of(place)) is_taken_.set(*cell);
+  }
+
+  [[nodiscard]] bool has(const Eigen::Vector3f& p) const {
+    const auto cell = cell_of({u_.dot(p), v_.dot(p)});
+    return cell && is_taken_.test(*cell);
+  }
+
+ private:
+  static constexpr std::size_t kSide = 128;
+  static constexpr float kSpacings = 3;  // gaps as those between objects count as the plane's own
+
+  [[nodiscard]] std::optional<std::size_t> cell_of(const Eigen::Vector2f& place) const {
+    const Eigen::Vector2f at = (place - center_) / cell_m_ + Eigen::Vector2f::Constant(0.5f * kSide);
+    if (!(at.minCoeff() >= 0 && at.maxCoeff() < kSide)) return std::nullopt;
+    return static_cast<std::size_t>(at.y()) * kSide + static_cast<std::size_t>(at.x());
+  }
+
+  Eigen::Vector3f u_, v_;
+  float cell_m_;
+  Eigen::Vector2f center_;
+  std::bitset<kSide * kSide> is_taken_;
+};
+
+/// Points that are seen through the plane: behind it, on lines of sight that pass it where its own points
+/// are. A support hides what is behind it; beside it the floor may be seen.
+int seen_through(const Sample& sample, const Plane& plane, const PlaneLimits& limits,
+                 const Eigen::Vector3f& viewpoint) {
+  constexpr float kBehind = 3;  // times the thickness
+  const Extent extent(sample, plane, limits);
+  const float from = plane.height(viewpoint);
+  int num = 0;
+  for (std::size_t i = 0; i < sample.points.size(); ++i) {
+    const Eigen::Vector3f p = sample.points.point(i);
+    const float height = plane.height(p);
+    if (height < -kBehind * limits.thickness_m &&
+        extent.has(viewpoint + from / (from - height) * (p - viewpoint)))
+      ++num;
+  }
+  return num;
+}
+
+std::optional<Plane> plane_through(const Sample& sample, const std::array<std::size_t, 3>& at,
+                                   float min_cosine, const Eigen::Vector3f& viewpoint) {
+  const Eigen::Vector3f a = sample.points.point(at[0]);
+  Eigen::Vector3f normal = (sample.points.point(at[1]) - a).cross(sample.points.point(at[2]) - a);
+  if (normal.norm() < 1e-6f) return std::nullopt;
+  normal.normalize();
+  if (normal.dot(viewpoint - a) < 0) normal = -normal;
+  for (const std::size_t i : at)
+    if (normal.dot(sample.normals.at(i)) < min_cosine) return std::nullopt;
+  return Plane{normal, -normal.dot(a)};
+}
+
+/// Points of the sample that belong to the plane.
+int count_on(const Sample& sample, const Plane& plane, const PlaneLimits& limits) {
+  const PointCloud& points = sample.points;
+  const Eigen::Vector3f& n = plane.normal;
+  return point_kernels().count_on_plane(
+      {{n.x(), n.y(), n.z()}, plane.offset_m, limits.thickness_m, limits.min_cosine},
+      {points.x.data(), points.y.data(), points.z.data(), sample.normals.arrays(), points.size()});
+}
+
+}  // namespace
+
+std::optional<Plane> find_plane(CoarseSurface& coarse, int num_hypotheses, const PlaneLimits& limits,
+                                const Eigen::Vector3f& viewpoint) {
+  if (coarse.size() < 3) return std::nullopt;
+  const Sample sample = take_sample(coarse);
+  std::minstd_rand random(1);
+  std::pmr::vector<Plane> planes;
+  for (int trial = 0; trial < 20 * num_hypotheses && static_cast<int>(planes.size()) < num_hypotheses;
+       ++trial) {
+    std::array<std::size_t, 3> at{};
+    for (std::size_t& i : at) i = random() % sample.points.size();
+    if (const auto plane = plane_through(sample, at, limits.min_cosine, viewpoint)) planes.push_back(*plane);
+  }
+  std::pmr::vector<int> num_on(planes.size());
+  tbb::parallel_for(std::size_t{0}, planes.size(),
+                    [&](std::size_t i) { num_on[i] = count_on(sample, planes[i], limits); });
+  std::pmr::vector<std::size_t> order(planes.size());  // the most points first
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return num_on[a] != num_on[b] ? num_on[a] > num_on[b] : a < b;
+  });
+  std::optional<Plane> best;
+  int best_score = 0;
+  for (const std::size_t i : order) {
+    if (num_on[i] <= best_score) break;
+    const int score = num_on[i] - seen_through(sample, planes[i], limits, viewpoint);
+    if (score <= best_score) continue;
+    best_score = score;
+    best = planes[i];
+  }
+  return best;
+}
+
+}  // namespace graspd

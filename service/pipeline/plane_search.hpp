@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The graspd authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The largest plane that nothing is seen through: RANSAC over points and normals.
+#pragma once
+#include <Eigen/Core>
+#include <optional>
+
+#include "service/pipeline/coarse_surface.hpp"
+#include "service/pipeline/support.hpp"
+
+namespace graspd {
+
+/// What makes a point one of a plane's.
+struct PlaneLimits {
+  float thickness_m;  ///< it is nearer to the plane
+  float min_cosine;   ///< between its normal and the plane's
+};
+
+/// Of so many hypotheses the one with the most points on it less those seen through it: behind it, on lines
+/// of sight that pass it where its own points are. A support hides what is behind it; beyond its border the
+/// floor may be seen, however much of it. Its normal is on the side of the viewpoint. Nothing where every
+/// plane is seen through as often as it has points.
+[[nodiscard]] std::optional<Plane> find_plane(CoarseSurface& coarse, int num_hypotheses,
+                                              const PlaneLimits& limits, const Eigen::Vector3f& viewpoint);
+
+}  // namespace graspd
