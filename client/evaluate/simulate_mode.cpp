@@ -15,6 +15,7 @@ namespace {
 
 std::vector<JudgedFrame> frames_of(const std::vector<JudgedScene>& scenes) {
   std::vector<JudgedFrame> frames;
+  frames.reserve(scenes.size());
   for (const JudgedScene& scene : scenes) frames.push_back(scene.frame);
   return frames;
 }
@@ -83,6 +84,16 @@ CLI::Option* add_simulate_options(CLI::App& app, SimulateOptions& o) {
       ->needs(simulate)
       ->capture_default_str()
       ->group(group);
+  app.add_option("--distance", o.distance_m, "from the camera to the middle of the scene [m]")
+      ->check(CLI::Range(0.3, 3.0))
+      ->needs(simulate)
+      ->capture_default_str()
+      ->group(group);
+  app.add_option("--elevation", o.elevation_deg,
+                 "of the camera above the horizon [degrees] (default: 43, over a bin 63)")
+      ->check(CLI::Range(5.0, 90.0))
+      ->needs(simulate)
+      ->group(group);
   app.add_option("--first-scene", o.scenes.first, "number of the first one")
       ->check(CLI::NonNegativeNumber)
       ->needs(simulate)
@@ -103,7 +114,9 @@ SimulationConfig simulation_config(const SimulateOptions& o) {
   config.sensor = *sensor_model(o.noise);
   config.seed = o.seed;
   config.new_scene_every = 1;
-  config.elevation_rad = usual_elevation_deg(config.scene.kind) * std::numbers::pi / 180;
+  config.distance_m = o.distance_m;
+  config.elevation_rad =
+      o.elevation_deg.value_or(usual_elevation_deg(config.scene.kind)) * std::numbers::pi / 180;
   return config;
 }
 

@@ -3,6 +3,7 @@
 // graspd-evaluate --simulate: the options of runs over simulated scenes, and their tables.
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,8 @@ namespace graspd {
 struct SimulateOptions {
   std::string kind;  ///< of the scenes; empty: no simulation
   std::string noise = "kinect";
+  double distance_m = SimulationConfig{}.distance_m;
+  std::optional<double> elevation_deg;  ///< nothing: the usual one of the kind
   std::uint64_t seed = 1;
   SceneRange scenes;
   std::int64_t stability = 0;
