@@ -159,16 +159,24 @@ GRASPD_AVX2 void find_hiders(const ViewImage& image, const Probes& places, float
   }
   const __m256 u = on_image(image.focal[0], image.center[0], view[0], view[2]),
                v = on_image(image.focal[1], image.center[1], view[1], view[2]), zero = _mm256_setzero_ps();
-  const __m256 inside = _mm256_and_ps(_mm256_cmp_ps(view[2], zero, _CMP_GT_OQ),
-                                      _mm256_and_ps(in_side(u, image.width), in_side(v, image.height)));
+  const __m256 before = _mm256_cmp_ps(view[2], zero, _CMP_GT_OQ),
+               inside =
+                   _mm256_and_ps(before, _mm256_and_ps(in_side(u, image.width), in_side(v, image.height)));
   const __m256i pixel = _mm256_add_epi32(
       _mm256_mullo_epi32(_mm256_cvttps_epi32(v), _mm256_set1_epi32(image.width)), _mm256_cvttps_epi32(u));
   const __m256 depth = _mm256_mask_i32gather_ps(zero, image.depth, pixel, inside, sizeof(float));
   const __m256 hides =
       _mm256_and_ps(_mm256_cmp_ps(depth, zero, _CMP_GT_OQ),
                     _mm256_cmp_ps(depth, _mm256_sub_ps(view[2], _mm256_set1_ps(margin_m)), _CMP_LT_OQ));
-  const __m256i hider = _mm256_mask_i32gather_epi32(_mm256_set1_epi32(-1), image.point, pixel,
-                                                    _mm256_castps_si256(hides), sizeof(std::int32_t));
+  const __m256 is_above = _mm256_cmp_ps(v, zero, _CMP_LT_OQ),
+               is_below = _mm256_cmp_ps(v, _mm256_set1_ps(static_cast<float>(image.height)), _CMP_GE_OQ),
+               is_beyond = _mm256_andnot_ps(inside, before);
+  __m256i other = _mm256_set1_epi32(image.beside);
+  other = _mm256_blendv_epi8(other, _mm256_set1_epi32(image.below), _mm256_castps_si256(is_below));
+  other = _mm256_blendv_epi8(other, _mm256_set1_epi32(image.above), _mm256_castps_si256(is_above));
+  other = _mm256_blendv_epi8(_mm256_set1_epi32(-1), other, _mm256_castps_si256(is_beyond));
+  const __m256i hider = _mm256_mask_i32gather_epi32(other, image.point, pixel, _mm256_castps_si256(hides),
+                                                    sizeof(std::int32_t));
   _mm256_storeu_si256(reinterpret_cast<__m256i*>(hiders), hider);
 }
 

@@ -13,6 +13,10 @@ namespace {
 /// Wider views are cut off: what is outside the image counts as seen.
 constexpr float kMaxSlope = 2.0f;
 constexpr int kMaxSide = 1024;
+/// Share of an image's columns or rows: sensors that see nothing in so many at its border see no farther
+/// there.
+constexpr float kBorder = 0.05f;
+constexpr float kNearest = 1e-6f;  // of what hides everything [m]
 
 Eigen::Matrix3f looking_along(const Eigen::Vector3f& forward) {
   Eigen::Matrix3f axes;
@@ -113,6 +117,18 @@ void DepthMap::take_image(const PointCloud& cloud, const ImagePixels& pixels, co
   const auto [first_column, last_column] = column_range(pixels);
   const auto seen = static_cast<float>(last_column - first_column + 1) * static_cast<float>(height_);
   point_area_ = seen / (static_cast<float>(cloud.size()) * focal_u_ * focal_v_);
+  const auto is_border = [](std::uint32_t empty, int of) {
+    return static_cast<float>(empty) <= kBorder * static_cast<float>(of);
+  };
+  above_ = is_border(first_row, pixels.height) ? kOutOfView : kFree;
+  below_ =
+      is_border(static_cast<std::uint32_t>(pixels.height) - 1 - last_row, pixels.height) ? kOutOfView : kFree;
+  beside_ = kOutOfView;
+  for (std::size_t row = 0; row < depth_.size(); row += width) {
+    if (is_border(first_column, pixels.width)) fill(row, row + first_column, kNearest, kOutOfView);
+    if (is_border(width - 1 - last_column, pixels.width))
+      fill(row + last_column + 1, row + width, kNearest, kOutOfView);
+  }
 }
 
 std::uint32_t DepthMap::take_pixels(const PointCloud& cloud, const ImagePixels& pixels, std::size_t i,
@@ -225,7 +241,10 @@ ViewImage DepthMap::view() const {
                  width_,
                  height_,
                  depth_.data(),
-                 point_.data()};
+                 point_.data(),
+                 beside_,
+                 above_,
+                 below_};
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) view.axes[i][j] = to_view_(i, j);
   return view;

@@ -17,10 +17,11 @@ class DepthMap {
   /// All points must be finite. pixels: of the cloud's points, where it is part of an image.
   explicit DepthMap(const PointCloud& cloud, const ImagePixels& pixels = {});
 
-  static constexpr std::int32_t kFree = -1;
+  static constexpr std::int32_t kFree = -1, kOutOfView = -2;
 
   /// The point of the cloud that hides p from the sensor, or kFree when nothing nearer than margin_m before
-  /// it does.
+  /// it does. kOutOfView beyond the borders of the cloud's own image; of a rendered one they are not known,
+  /// and nothing hides what is beyond them.
   [[nodiscard]] std::int32_t hider(const Eigen::Vector3f& p, float margin_m) const;
 
   /// The same for several places at once.
@@ -49,6 +50,7 @@ class DepthMap {
   float point_area_ = 1;           // that a point stands for at depth 1
   RawVector<float> depth_;         // 0: nothing seen
   RawVector<std::int32_t> point_;  // that the depth is of
+  std::int32_t beside_ = kFree, above_ = kFree, below_ = kFree;
 };
 
 }  // namespace graspd

@@ -14,6 +14,7 @@
 #include "service/pipeline/one_face.hpp"
 #include "service/pipeline/patch_fit.hpp"
 #include "service/pipeline/thin_wall.hpp"
+#include "service/pipeline/unseen_share.hpp"
 
 namespace graspd {
 namespace {
@@ -25,8 +26,6 @@ constexpr float kMaxThinMisalignment = 6.0f;      // within this [degrees]
 constexpr float kWallErrors = 10;                 // that a rim's wall may be off by: neighbours share noise
 constexpr float kMaxBend = 0.0015f;               // of it between the jaws: less than pads yield [m]
 constexpr float kAmpleArea = 5e-4f;               // seen between the jaws, beyond what must be [m2]
-constexpr float kHideMargin =
-    0.008f;  // a place is hidden when something is nearer to the sensor by this much [m]
 
 float radians(float degrees) {
   return degrees * std::numbers::pi_v<float> / 180;
@@ -63,8 +62,8 @@ class Check {
   [[nodiscard]] std::size_t select(float min_distance, float max_distance, float min_depth, float max_depth);
   /// Where what is between the jaws ends.
   void find_ends();
-  [[nodiscard]] float hidden_share(float f0, float f1, float z0, float z1, bool by_others) const;
-  [[nodiscard]] float finger_hidden_share(int side, bool by_others) const;
+  [[nodiscard]] float hidden_share(const HandBox& box, Hidden what) const;
+  [[nodiscard]] float finger_hidden_share(int side, Hidden what) const;
   [[nodiscard]] float area_per_point() const;
   /// Of the object between the jaws [m2].
   [[nodiscard]] float seen_area() const { return area_per_point() * static_cast<float>(num_seen_); }
@@ -208,37 +207,14 @@ Failure Check::check_walls() {
   return widening > limit ? Failure::kWalls : Failure::kNone;
 }
 
-float Check::hidden_share(float f0, float f1, float z0, float z1, bool by_others) const {
-  constexpr std::size_t kDepths = kProbes;
-  Probes places;
-  std::int32_t hiders[kDepths];
-  int samples = 0, hidden = 0;
-  const Eigen::Matrix3f& R = handle_.rotation;
-  const Eigen::Vector3f& p = handle_.position;
-  for (const float a : {-0.4f, 0.0f, 0.4f})
-    for (const float s : {0.1f, 0.5f, 0.9f}) {
-      const float along = a * gripper_.finger_thickness_m, f = f0 + (f1 - f0) * s;
-      for (std::size_t k = 0; k < kDepths; ++k) {
-        const float z = z0 + (z1 - z0) * (static_cast<float>(k) + 0.5f) / kDepths;
-        places.x[k] = p.x() + (R(0, 0) * along + R(0, 1) * f + R(0, 2) * z);
-        places.y[k] = p.y() + (R(1, 0) * along + R(1, 1) * f + R(1, 2) * z);
-        places.z[k] = p.z() + (R(2, 0) * along + R(2, 1) * f + R(2, 2) * z);
-      }
-      scene_.depth_map.find_hiders(places, kHideMargin, hiders);
-      for (const std::int32_t hider : hiders) {
-        ++samples;
-        if (hider == DepthMap::kFree) continue;
-        const bool by_own = scene_.object_at(hider) == candidate_.object;
-        hidden += by_others && by_own ? 0 : 1;
-      }
-    }
-  return static_cast<float>(hidden) / static_cast<float>(samples);
+float Check::hidden_share(const HandBox& box, Hidden what) const {
+  return graspd::hidden_share(scene_, handle_, gripper_.finger_thickness_m, box, what, candidate_.object);
 }
 
-float Check::finger_hidden_share(int side, bool by_others) const {
+float Check::finger_hidden_share(int side, Hidden what) const {
   const float sign = side == 0 ? -1.0f : 1.0f, half = half_opening(), l = gripper_.grasp_depth_m;
-  const float z0 = by_others ? l - gripper_.finger_length_m : std::min(top_, l - 0.01f);
-  return hidden_share(sign * half, sign * (half + gripper_.finger_width_m), z0, l, by_others);
+  const float z0 = what == Hidden::kByOthers ? l - gripper_.finger_length_m : std::min(top_, l - 0.01f);
+  return hidden_share({sign * half, sign * (half + gripper_.finger_width_m), z0, l}, what);
 }
 
 /// Every measured point stands for the patch of surface that its ray meets; every one of a sparse copy for
@@ -316,9 +292,9 @@ Failure Check::check_contacts() {
                            area_per_point(),
                            radians(config_.max_wall_angle_deg),
                            fit_circle(buffers_.profile, kMaxRadius)};
-  const Contact low = find_contact(input, -1, end_[0], finger_hidden_share(0, false));
+  const Contact low = find_contact(input, -1, end_[0], finger_hidden_share(0, Hidden::kAtAll));
   if (low.kind == ContactKind::kNone) return Failure::kContact;
-  const Contact high = find_contact(input, 1, end_[1], finger_hidden_share(1, false));
+  const Contact high = find_contact(input, 1, end_[1], finger_hidden_share(1, Hidden::kAtAll));
   if (high.kind == ContactKind::kNone) return Failure::kContact;
   margins_.contact = {low.kind, high.kind};
   if (!check_square(low, high, input.circle.has_value())) return Failure::kContact;
@@ -336,14 +312,15 @@ Failure Check::check_unseen() {
   const Gripper& g = gripper_;
   float hidden[2];
   for (int side = 0; side < 2; ++side) {
-    hidden[side] = finger_hidden_share(side, false);
+    hidden[side] = finger_hidden_share(side, Hidden::kAtAll);
     handle_.observed_free[static_cast<std::size_t>(side)] = 1 - hidden[side];
-    if (finger_hidden_share(side, true) > 0.5f * config_.max_hidden_share) return Failure::kUnseen;
+    if (finger_hidden_share(side, Hidden::kByOthers) > 0.5f * config_.max_hidden_share)
+      return Failure::kUnseen;
   }
   if (std::min(hidden[0], hidden[1]) > config_.max_hidden_share) return Failure::kUnseen;
   margins_.seen = 1 - std::max(hidden[0], hidden[1]);
   const float hand = 0.5f * g.aperture_m + g.finger_width_m, palm_top = g.grasp_depth_m - g.finger_length_m;
-  const float palm = hidden_share(-hand, hand, palm_top - config_.palm_depth_m, palm_top, false);
+  const float palm = hidden_share({-hand, hand, palm_top - config_.palm_depth_m, palm_top}, Hidden::kInView);
   return palm > config_.max_hidden_share ? Failure::kUnseen : Failure::kNone;
 }
 

@@ -205,7 +205,11 @@ void find_hiders(const ViewImage& image, const Probes& places, float margin_m,
   const auto width = static_cast<float>(image.width), height = static_cast<float>(image.height);
   for (std::size_t k = 0; k < kProbes; ++k) {
     hiders[k] = -1;
-    if (!(depth[k] > 0 && u[k] >= 0 && v[k] >= 0 && u[k] < width && v[k] < height)) continue;
+    if (!(depth[k] > 0)) continue;
+    if (!(u[k] >= 0 && v[k] >= 0 && u[k] < width && v[k] < height)) {
+      hiders[k] = v[k] < 0 ? image.above : v[k] >= height ? image.below : image.beside;
+      continue;
+    }
     const std::int32_t pixel =
         static_cast<std::int32_t>(v[k]) * image.width + static_cast<std::int32_t>(u[k]);
     if (image.depth[pixel] > 0 && image.depth[pixel] < depth[k] - margin_m) hiders[k] = image.point[pixel];

@@ -203,6 +203,8 @@ struct ViewImage {
   std::int32_t width, height;
   const float* depth;         ///< of each pixel; 0: nothing seen
   const std::int32_t* point;  ///< that the depth is of
+  /// What hides places beyond the image: beside it, above and below.
+  std::int32_t beside = -1, above = -1, below = -1;
 };
 
 /// Coordinates of points along the axes of a view [m].
@@ -305,7 +307,8 @@ struct PointKernels {
   /// Summed in eight parts, every eighth point in one, which are added in order. As many as kPointPadding
   /// more points must be readable.
   ProfileSums (*sum_profile)(const ProfileWeights& weights, const FacePoints& face);
-  /// Writes for each place the point that hides it, nearer than it by more than margin_m, or -1.
+  /// Writes for each place the point that hides it, nearer than it by more than margin_m, or -1; what the
+  /// image says for places beyond it.
   void (*find_hiders)(const ViewImage& image, const Probes& places, float margin_m,
                       std::int32_t (&hiders)[kProbes]);
   /// Writes the points in the axes of the view. The range needs no indices.

@@ -194,12 +194,21 @@ TEST(CheckKernels, FindWhatHidesPlacesInAnImage) {
   std::iota(point.begin(), point.end(), 0);
   for (std::size_t i = 0; i < depth.size(); i += 3) depth[i] = 0;  // nothing seen
   const float c = std::cos(0.2f), s = std::sin(0.2f);
-  const ViewImage image{
-      {0.1f, 0, -0.1f}, {{c, 0, -s}, {0, 1, 0}, {s, 0, c}}, {30, 33}, {19, 14}, kWidth, kHeight, depth.data(),
-      point.data()};
+  const ViewImage image{{0.1f, 0, -0.1f},
+                        {{c, 0, -s}, {0, 1, 0}, {s, 0, c}},
+                        {30, 33},
+                        {19, 14},
+                        kWidth,
+                        kHeight,
+                        depth.data(),
+                        point.data(),
+                        -5,
+                        -6,
+                        -7};
   std::mt19937 random(12);
   std::uniform_real_distribution<float> unit(-1, 1);
   int num_hidden = 0, num_free = 0;
+  std::array<int, 3> num_beyond{};
   for (int round = 0; round < 300; ++round) {
     Probes places;
     for (std::size_t k = 0; k < kProbes; ++k) {
@@ -219,6 +228,9 @@ TEST(CheckKernels, FindWhatHidesPlacesInAnImage) {
         if (z > 0 && u >= 0 && v >= 0 && u < kWidth && v < kHeight) {
           const auto pixel = static_cast<std::size_t>(static_cast<int>(v) * kWidth + static_cast<int>(u));
           if (depth[pixel] > 0 && depth[pixel] < z - 0.05f) expected = point[pixel];
+        } else if (z > 0) {
+          expected = v < 0 ? -6 : v >= kHeight ? -7 : -5;
+          ++num_beyond[static_cast<std::size_t>(-5 - expected)];
         }
         ASSERT_EQ(hiders[k], expected) << form.name << " round " << round << " place " << k;
         ++(expected < 0 ? num_free : num_hidden);
@@ -227,6 +239,7 @@ TEST(CheckKernels, FindWhatHidesPlacesInAnImage) {
   }
   EXPECT_GT(num_hidden, 100);
   EXPECT_GT(num_free, 100);
+  for (const int num : num_beyond) EXPECT_GT(num, 20);
 }
 
 }  // namespace

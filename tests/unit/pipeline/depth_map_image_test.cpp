@@ -103,6 +103,7 @@ TEST(DepthMapImage, AgreesWithTheRenderedOne) {
   const DepthMap own(kept.cloud, kept.pixels), rendered(kept.cloud);
   int hidden = 0, differ = 0, total = 0;
   for_each_probe([&](const Eigen::Vector3f& p) {
+    if (own.hider(p, kMargin) == DepthMap::kOutOfView) return;
     const bool is_hidden = own.hider(p, kMargin) != DepthMap::kFree;
     hidden += is_hidden ? 1 : 0;
     differ += is_hidden != (rendered.hider(p, kMargin) != DepthMap::kFree) ? 1 : 0;
@@ -188,9 +189,37 @@ TEST(DepthMapImage, PartOfTheImageInTheWorkspace) {
   const DepthMap map(kept.cloud, kept.pixels);
   for (std::size_t i = 0; i < kept.cloud.size(); ++i)
     ASSERT_EQ(map.hider(1.2f * kept.cloud.point(i), kMargin), static_cast<std::int32_t>(i));
-  EXPECT_EQ(map.hider({-0.3f, 0, 0.9f}, kMargin), DepthMap::kFree);
+  EXPECT_EQ(map.hider({-0.15f, 0, 0.9f}, kMargin), DepthMap::kFree);
+  EXPECT_EQ(map.hider({-0.6f, 0, 0.9f}, kMargin), DepthMap::kOutOfView);
   EXPECT_EQ(map.hider({0, -0.2f, 0.9f}, kMargin), DepthMap::kFree);
   EXPECT_EQ(map.hider({0, 0.2f, 0.9f}, kMargin), DepthMap::kFree);
+}
+
+TEST(DepthMapImage, BeyondItsBordersNothingIsSeen) {
+  PointCloud image = grid_patch({-0.5f, -0.5f, 1}, {0.01f, 0, 0}, {0, 0.01f, 0}, 101, 101);
+  image.width = image.height = 101;
+  const auto hiders_with_band = [&](std::size_t columns, std::size_t rows) {
+    PointCloud part = image;
+    for (std::size_t v = 0; v < 101; ++v)
+      for (std::size_t u = 0; u < 101; ++u)
+        if (u < columns || v < rows) make_missing(part, v * 101 + u);
+    const WorkspaceResult kept = filter_workspace(part, {});
+    const DepthMap map(kept.cloud, kept.pixels);
+    return [map](float x, float y, float depth) { return map.hider({depth * x, depth * y, depth}, kMargin); };
+  };
+  const auto whole = hiders_with_band(0, 0), narrow = hiders_with_band(4, 3), wide = hiders_with_band(20, 15);
+  for (const float depth : {0.5f, 1.5f}) {
+    for (const auto& [x, y] :
+         {std::pair{-0.6f, 0.0f}, {0.6f, 0.0f}, {0.0f, -0.6f}, {0.0f, 0.6f}, {0.7f, -0.7f}})
+      EXPECT_EQ(whole(x, y, depth), DepthMap::kOutOfView) << x << " " << y << " " << depth;
+    EXPECT_EQ(whole(-0.48f, 0, 0.5f), DepthMap::kFree);
+    EXPECT_EQ(narrow(-0.48f, 0, depth), DepthMap::kOutOfView)
+        << "a band at the border where sensors see nothing";
+    EXPECT_EQ(narrow(0, -0.49f, depth), DepthMap::kOutOfView);
+    EXPECT_EQ(wide(-0.48f, 0, depth), DepthMap::kFree) << "what lies there is too far away, or was left out";
+    EXPECT_EQ(wide(0, -0.49f, depth), DepthMap::kFree);
+  }
+  EXPECT_EQ(whole(0.6f, 0, -1), DepthMap::kFree) << "behind the sensor";
 }
 
 TEST(DepthMapImage, RenderedWhereTheModelDoesNotFit) {

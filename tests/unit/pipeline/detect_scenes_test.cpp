@@ -230,5 +230,19 @@ TEST(DetectScenes, BoxesOfManyWidths) {
   }
 }
 
+TEST(DetectScenes, ABoxThatTheImageCutsOffIsNotTakenForASmallOne) {
+  // Too wide either way, but 5 cm of it is seen: the image ends 22 cm to the right of the middle.
+  AnalyticScene scene = on_table({standing_box(0.25, 0, {0.16, 0.12, 0.06})});
+  scene.camera = {looking_at({0, -0.5, 0.6}, {0, 0, 0}), 440, 360, 780};
+  const AnalyticScene seen = moved(scene, scene.camera.T_scene_camera.inverse());
+  const Detected cut_off = detect(seen);
+  EXPECT_TRUE(cut_off.handles().empty());
+  // One of the width that is seen is held.
+  scene.solids[1] = standing_box(0.17, 0, {0.05, 0.12, 0.06});
+  const Detected whole = detect(moved(scene, scene.camera.T_scene_camera.inverse()));
+  EXPECT_GT(whole.num_on(1), 0);
+  expect_all_sound(whole);
+}
+
 }  // namespace
 }  // namespace graspd
