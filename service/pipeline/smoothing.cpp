@@ -4,7 +4,16 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+
 namespace graspd {
+
+int smoothing_iterations(const SmoothingConfig& config, float scatter_m) {
+  constexpr int kMost = 4;
+  if (config.from_scatter_m == 0 || scatter_m < config.from_scatter_m) return config.iterations;
+  const float more = (scatter_m - config.from_scatter_m) / config.scatter_step_m;
+  return std::max(config.iterations, 1 + static_cast<int>(std::min(more, static_cast<float>(kMost - 1))));
+}
 
 PointCloud smooth(const PointCloud& cloud, const Normals& normals, const Neighborhoods& neighborhoods) {
   constexpr float kMinCosine = 0.9063f;  // 25 degrees

@@ -99,7 +99,8 @@ Surfaces find_surfaces(const PointCloud& cloud, const DetectConfig& config, cons
   done("neighborhoods");
   s.normals = surface_normals(s.cloud, neighborhoods, s.support);
   done("normals");
-  for (int i = 0; i < config.smoothing.iterations; ++i) {
+  const int iterations = smoothing_iterations(config.smoothing, s.support ? s.support->sigma_m : 0);
+  for (int i = 0; i < iterations; ++i) {
     s.cloud = smooth(s.cloud, s.normals, neighborhoods);
     neighborhoods = find_neighborhoods(s.cloud, config.neighborhoods, is_support);
     s.normals = surface_normals(s.cloud, neighborhoods, s.support);

@@ -28,6 +28,28 @@ PointCloud noisy_plane() {
   return with_range_noise(cloud, 0.001f, 1);
 }
 
+TEST(SmoothingIterations, FollowTheScatter) {
+  SmoothingConfig config;
+  config.from_scatter_m = 0.002f;
+  config.scatter_step_m = 0.0005f;
+  const auto iterations = [&](float scatter_m) { return smoothing_iterations(config, scatter_m); };
+  EXPECT_EQ(iterations(0), 0) << "no support";
+  EXPECT_EQ(iterations(0.0019f), 0);
+  EXPECT_EQ(iterations(0.0021f), 1);
+  EXPECT_EQ(iterations(0.0026f), 2);
+  EXPECT_EQ(iterations(0.0036f), 4);
+  EXPECT_EQ(iterations(1e6f), 4);
+  config.iterations = 2;
+  EXPECT_EQ(iterations(0.001f), 2) << "at least";
+  EXPECT_EQ(iterations(0.0021f), 2);
+  EXPECT_EQ(iterations(0.0031f), 3);
+  config.iterations = 9;
+  EXPECT_EQ(iterations(0.1f), 9);
+  config.iterations = 0;
+  config.from_scatter_m = 0;
+  EXPECT_EQ(iterations(0.1f), 0) << "never";
+}
+
 TEST(Smoothing, ANoisyPlaneGetsFlatter) {
   PointCloud cloud = noisy_plane();
   double rms = rms_about(cloud, 0.8f);

@@ -72,6 +72,10 @@ TEST(Surfaces, SmoothingRunsAsOftenAsAskedAndFlattens) {
     return std::sqrt(sum / n);
   };
   EXPECT_LT(scatter(smooth), 0.6 * scatter(rough));
+  // By itself where the table scatters.
+  config = {};
+  config.smoothing.from_scatter_m = 0.0001f;
+  EXPECT_LT(scatter(surfaces_of(noisy, config)), 0.6 * scatter(rough));
 }
 
 }  // namespace
