@@ -20,21 +20,49 @@ namespace {
 constexpr std::size_t kSampleSize = 2000;  // points that hypotheses are scored on
 constexpr std::size_t kFewTimes = 5;       // as many: all are prepared at once, most will be needed
 
+/// What a point at a distance [m] counts. Far away as much as the part of the view that its piece of surface
+/// fills, but for the slant: a wall behind a table may be larger than it.
+float weight_at(float distance_m) {
+  constexpr float kFar = 1;  // [m]
+  const float d = std::max(kFar, distance_m);
+  return 1 / (d * d);
+}
+
 struct Sample {
   PointCloud points;
   Normals normals;
-  float spacing_m;  ///< of the points on a surface
+  float area_m2 = 0;  ///< of a surface that a point stands for, times the weight there
+
+  /// Between the points on a surface at a distance [m].
+  [[nodiscard]] float spacing_at(float distance_m) const {
+    return std::sqrt(area_m2 / weight_at(distance_m));
+  }
 };
 
-/// Every k-th point: voxels are spread evenly over surfaces, so that this is too.
-Sample take_sample(CoarseSurface& coarse) {
-  const std::size_t step = std::max<std::size_t>(1, coarse.size() / kSampleSize);
-  std::pmr::vector<std::uint8_t> wanted(coarse.size(), step < kFewTimes ? 1 : 0);
-  for (std::size_t i = 0; i < coarse.size(); i += step) wanted[i] = 1;
-  coarse.prepare(wanted);
+/// Spread over surfaces by weight.
+Sample take_sample(CoarseSurface& coarse, const Eigen::Vector3f& viewpoint) {
+  const std::size_t n = coarse.size();
+  RawVector<float> weights(n);
+  float sum = 0, most = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    weights[i] = weight_at((coarse.cloud().point(i) - viewpoint).norm());
+    sum += weights[i];
+    most = std::max(most, weights[i]);
+  }
+  const float of_one = std::max(sum / kSampleSize, most);
+  std::pmr::vector<std::uint8_t> is_in(n);
+  float left = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    left += weights[i];
+    if (left < of_one) continue;
+    left -= of_one;
+    is_in[i] = 1;
+  }
+  coarse.prepare(n < kFewTimes * kSampleSize ? std::pmr::vector<std::uint8_t>(n, 1) : is_in);
   Sample sample;
-  sample.spacing_m = coarse.leaf_size_m() * std::sqrt(static_cast<float>(step));
-  for (std::size_t i = 0; i < coarse.size(); i += step) {
+  sample.area_m2 = coarse.leaf_size_m() * coarse.leaf_size_m() * of_one;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (is_in[i] == 0) continue;
     sample.points.push_back(coarse.cloud().point(i));
     sample.normals.x.push_back(coarse.normals().x[i]);
     sample.normals.y.push_back(coarse.normals().y[i]);
@@ -46,9 +74,11 @@ Sample take_sample(CoarseSurface& coarse) {
 /// Where the points of a plane are, in square cells.
 class Extent {
  public:
-  Extent(const Sample& sample, const Plane& plane, const PlaneLimits& limits)
-      : u_(plane.normal.unitOrthogonal()), v_(plane.normal.cross(u_)), cell_m_(kSpacings * sample.spacing_m) {
+  Extent(const Sample& sample, const Plane& plane, const PlaneLimits& limits,
+         const Eigen::Vector3f& viewpoint)
+      : u_(plane.normal.unitOrthogonal()), v_(plane.normal.cross(u_)) {
     Eigen::Vector2f sum = Eigen::Vector2f::Zero();
+    float distances = 0;
     std::pmr::vector<Eigen::Vector2f> places;
     for (std::size_t i = 0; i < sample.points.size(); ++i) {
       const Eigen::Vector3f p = sample.points.point(i);
@@ -57,8 +87,11 @@ class Extent {
         continue;
       places.emplace_back(u_.dot(p), v_.dot(p));
       sum += places.back();
+      distances += (p - viewpoint).norm();
     }
-    center_ = sum / static_cast<float>(std::max<std::size_t>(1, places.size()));
+    const auto n = static_cast<float>(std::max<std::size_t>(1, places.size()));
+    center_ = sum / n;
+    cell_m_ = kSpacings * sample.spacing_at(distances / n);
     for (const Eigen::Vector2f& place : places)
       if (const auto cell = cell_of(place)) is_taken_.set(*cell);
   }
@@ -79,7 +112,7 @@ class Extent {
   }
 
   Eigen::Vector3f u_, v_;
-  float cell_m_;
+  float cell_m_ = 0;
   Eigen::Vector2f center_;
   std::bitset<kSide * kSide> is_taken_;
 };
@@ -89,7 +122,7 @@ class Extent {
 int seen_through(const Sample& sample, const Plane& plane, const PlaneLimits& limits,
                  const Eigen::Vector3f& viewpoint) {
   constexpr float kBehind = 3;  // times the thickness
-  const Extent extent(sample, plane, limits);
+  const Extent extent(sample, plane, limits, viewpoint);
   const float from = plane.height(viewpoint);
   int num = 0;
   for (std::size_t i = 0; i < sample.points.size(); ++i) {
@@ -128,7 +161,7 @@ int count_on(const Sample& sample, const Plane& plane, const PlaneLimits& limits
 std::optional<Plane> find_plane(CoarseSurface& coarse, int num_hypotheses, const PlaneLimits& limits,
                                 const Eigen::Vector3f& viewpoint) {
   if (coarse.size() < 3) return std::nullopt;
-  const Sample sample = take_sample(coarse);
+  const Sample sample = take_sample(coarse, viewpoint);
   std::minstd_rand random(1);
   std::pmr::vector<Plane> planes;
   for (int trial = 0; trial < 20 * num_hypotheses && static_cast<int>(planes.size()) < num_hypotheses;

@@ -184,6 +184,18 @@ TEST(Support, TheTableBeforeAFloorTooFarToBeMeasuredWell) {
   expect_plane(support, Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Zero());
 }
 
+TEST(Support, TheTableBeforeALargerWallFartherAway) {
+  // A table of 0.8 m x 0.5 m with a box on it, and a wall of 3 m x 2 m that stands 1 m behind it.
+  AnalyticScene scene =
+      on_table({standing_box(0, 0, {0.8, 0.5, 0.03}), standing_box(0.05, 0, {0.05, 0.1, 0.08}),
+                standing_box(0, 1.5, {3, 0.1, 2})});
+  scene.solids[1].T_scene_solid.translation().z() = -0.015;
+  scene.solids[0].T_scene_solid.translation().z() = -0.7;
+  scene.camera = {looking_at({0, -0.8, 0.4}, {0, 0.2, 0}), 320, 240, 260};
+  const PointCloud cloud = finite_points(render(scene).cloud);
+  expect_plane(find_support(cloud, {}), Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Zero());
+}
+
 TEST(Support, WhatIsSeenThroughIsNone) {
   // The tops of blocks in rows, 6 cm wide and 4 cm apart, of which more is seen than of the table between
   // them.
