@@ -20,7 +20,6 @@ constexpr float kSeenFree = 0.18f;       // up to this hidden share a place coun
 constexpr float kHidden = 0.30f;         // from this share on as hidden; between the two it must do as both
 constexpr float kMinFaceArea = 0.8e-4f;  // seen, of a face that is carried on [m2]
 constexpr float kMaxRise = 0.50f;      // of a face towards its end: one that curls up is not understood [rad]
-constexpr float kHideMargin = 0.008f;  // nearer by this much hides [m]
 constexpr float kCameraSide = 0.40f;   // cosine: beyond it the sensor would have seen the wall
 constexpr float kMaxWedge = 0.65f;     // mean tilt of a face that ends at free space [rad]
 constexpr float kMaxFlatTilt = 0.40f;  // tilt of a flat face that is carried on [rad]
@@ -105,7 +104,9 @@ bool ends_by_occlusion(const ContactInput& in, float side, float end_m, float en
   for (const float a : {-0.3f, 0.0f, 0.3f}) {
     const Eigen::Vector3f beyond(a * in.finger_thickness_m, end_m + side * 0.006f, end_depth_m);
     hidden +=
-        in.scene.depth_map.hider(in.position + in.rotation * beyond, kHideMargin) != DepthMap::kFree ? 1 : 0;
+        in.scene.depth_map.hider(in.position + in.rotation * beyond, DepthMap::kHideMargin) != DepthMap::kFree
+            ? 1
+            : 0;
   }
   return hidden >= 2;
 }

@@ -18,6 +18,8 @@ class DepthMap {
   explicit DepthMap(const PointCloud& cloud, const ImagePixels& pixels = {});
 
   static constexpr std::int32_t kFree = -1, kOutOfView = -2;
+  /// What is nearer to the sensor by this much hides a place from it [m]; less is the surface there itself.
+  static constexpr float kHideMargin = 0.008f;
 
   /// The point of the cloud that hides p from the sensor, or kFree when nothing nearer than margin_m before
   /// it does. kOutOfView beyond the borders of the cloud's own image; of a rendered one they are not known,

@@ -55,7 +55,7 @@ std::pmr::vector<Candidate> rim_candidates(const SearchInput& in, std::size_t ob
   NearPoints wall(in.cloud, points);
   const Eigen::Vector3f up =
       in.support ? in.support->plane.normal : (in.cloud.viewpoint - in.objects.center[object]).normalized();
-  const std::optional<VesselAxis> axis = vessel_axis(in, points, up);
+  std::optional<std::optional<VesselAxis>> axis;  // looked for once there is a rim
   for (const std::uint32_t k : highest_points(in, points, up, 0.5f * config.seed_spacing_m)) {
     const Eigen::Vector3f p = in.cloud.point(k), n = in.normals.at(k);
     const std::int32_t segment = in.segments.of_point[k];
@@ -63,7 +63,8 @@ std::pmr::vector<Candidate> rim_candidates(const SearchInput& in, std::size_t ob
     const Eigen::Vector3f to_sensor = (in.cloud.viewpoint - p).normalized();
     const std::optional<Eigen::Vector3f> end = end_direction(in, wall, p, n);
     if (!end || end->dot(up) < kMinUp) continue;
-    const auto fitted = RimWall::fit(in, wall.within(p, RimWall::kReach), {p, n, *end}, axis);
+    if (!axis) axis = vessel_axis(in, points, up);
+    const auto fitted = RimWall::fit(in, wall.within(p, RimWall::kReach), {p, n, *end}, *axis);
     if (!fitted) continue;
     for (const float depth_m : {gripper.grasp_depth_m, kShallow * gripper.grasp_depth_m}) {
       const Eigen::Matrix3f axes = fitted->gripper_axes(0.5f * depth_m);

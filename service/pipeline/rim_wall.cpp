@@ -94,8 +94,7 @@ std::optional<VesselAxis> vessel_axis(const SearchInput& in, std::span<const std
   constexpr std::size_t kMostPoints = 300, kMinWallPoints = 20;  // a spread sample says the same
   constexpr float kMinWallSine = 0.5f;                           // between a wall's normal and up
   constexpr float kLineScale = 0.008f;                           // of how far lines pass the axis [m]
-  constexpr float kMaxSine =
-      0.25f;  // between a normal and the direction to the axis, for a line that meets it
+  constexpr float kMaxSine = 0.25f;  // between a normal and the way to the axis, for a line that meets it
   constexpr float kMinShare = 0.6f;
   if (points.empty()) return std::nullopt;
   const Eigen::Vector3f u = up.unitOrthogonal(), v = up.cross(u), origin = in.cloud.point(points.front());

@@ -14,7 +14,6 @@
 namespace graspd {
 namespace {
 
-using Eigen::Matrix2f;
 using Eigen::Vector2f;
 using Eigen::Vector3f;
 

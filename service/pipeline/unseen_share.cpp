@@ -5,8 +5,6 @@
 namespace graspd {
 namespace {
 
-constexpr float kHideMargin = 0.008f;  // nearer by this much hides [m]
-
 bool counts(const SceneView& scene, std::int32_t hider, Hidden what, std::int32_t object) {
   if (hider == DepthMap::kFree) return false;
   if (hider == DepthMap::kOutOfView) return what == Hidden::kAtAll;
@@ -32,7 +30,7 @@ float hidden_share(const SceneView& scene, const Handle& handle, float thickness
         places.y[k] = p.y() + (R(1, 0) * along + R(1, 1) * f + R(1, 2) * z);
         places.z[k] = p.z() + (R(2, 0) * along + R(2, 1) * f + R(2, 2) * z);
       }
-      scene.depth_map.find_hiders(places, kHideMargin, hiders);
+      scene.depth_map.find_hiders(places, DepthMap::kHideMargin, hiders);
       for (const std::int32_t hider : hiders) {
         ++samples;
         hidden += counts(scene, hider, what, object) ? 1 : 0;

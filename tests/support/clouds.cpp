@@ -123,12 +123,18 @@ PointCloud with_missing_between(const PointCloud& cloud, std::size_t every) {
 }
 
 PointCloud with_range_noise(const PointCloud& cloud, float sigma_m, std::uint32_t seed) {
+  return with_range_noise(
+      cloud, [sigma_m](float) { return sigma_m; }, seed);
+}
+
+PointCloud with_range_noise(const PointCloud& cloud, const std::function<float(float range_m)>& sigma_m,
+                            std::uint32_t seed) {
   std::mt19937 random(seed);
-  std::normal_distribution<float> noise(0, sigma_m);
+  std::normal_distribution<float> noise;
   PointCloud result = cloud;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const Eigen::Vector3f ray = cloud.point(i) - cloud.viewpoint;
-    const Eigen::Vector3f p = cloud.point(i) + noise(random) * ray.normalized();
+    const Eigen::Vector3f p = cloud.point(i) + noise(random) * sigma_m(ray.norm()) * ray.normalized();
     result.x[i] = p.x();
     result.y[i] = p.y();
     result.z[i] = p.z();

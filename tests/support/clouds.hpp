@@ -4,6 +4,7 @@
 #pragma once
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <functional>
 
 #include "service/pipeline/point_cloud.hpp"
 
@@ -35,7 +36,11 @@ namespace graspd {
 [[nodiscard]] PointCloud doubled(const PointCloud& cloud);
 /// Missing points between the others: one after every every-th.
 [[nodiscard]] PointCloud with_missing_between(const PointCloud& cloud, std::size_t every);
-/// Moved along the lines of sight, normally distributed.
+/// Moved along the lines of sight, normally distributed with this deviation.
 [[nodiscard]] PointCloud with_range_noise(const PointCloud& cloud, float sigma_m, std::uint32_t seed);
+/// With one that depends on the distance from the sensor [m].
+[[nodiscard]] PointCloud with_range_noise(const PointCloud& cloud,
+                                          const std::function<float(float range_m)>& sigma_m,
+                                          std::uint32_t seed);
 
 }  // namespace graspd

@@ -60,7 +60,7 @@ float CheckScene::hidden_share(const Candidate& candidate, const Gripper& grippe
       for (float z = 0.001f; z < gripper.grasp_depth_m; z += 0.001f) {
         const Eigen::Vector3f place(a * gripper.finger_thickness_m, f_m + side * f, z);
         const Eigen::Vector3f p = candidate.position + candidate.rotation * place;
-        hidden += depth_map_.hider(p, 0.008f) != DepthMap::kFree ? 1 : 0;
+        hidden += depth_map_.hider(p, DepthMap::kHideMargin) != DepthMap::kFree ? 1 : 0;
         ++all;
       }
   return static_cast<float>(hidden) / static_cast<float>(all);

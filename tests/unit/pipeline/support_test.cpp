@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <random>
+#include <vector>
 
 #include "service/pipeline/downsample.hpp"
 #include "tests/support/clouds.hpp"
@@ -137,12 +137,21 @@ TEST(Support, OfManyPoints) {
   expect_points(s, *support, 0, 0.010);
 }
 
+/// A table with a box on it, so far above a floor, and other solids.
+AnalyticScene table_over_floor(double width, double depth, double height,
+                               std::vector<AnalyticSolid> others = {}) {
+  std::vector<AnalyticSolid> solids{standing_box(0, 0, {width, depth, 0.03}),
+                                    standing_box(0.05, 0, {0.05, 0.1, 0.08})};
+  solids.insert(solids.end(), others.begin(), others.end());
+  AnalyticScene scene = on_table(solids);
+  scene.solids[1].T_scene_solid.translation().z() = -0.015;
+  scene.solids[0].T_scene_solid.translation().z() = -height;
+  return scene;
+}
+
 TEST(Support, TheTableRatherThanTheLargerFloorBelow) {
   // A table of 0.5 m x 0.4 m, 0.5 m above a floor of which more is seen.
-  AnalyticScene scene =
-      on_table({standing_box(0, 0, {0.5, 0.4, 0.03}), standing_box(0.05, 0, {0.05, 0.1, 0.08})});
-  scene.solids[1].T_scene_solid.translation().z() = -0.015;
-  scene.solids[0].T_scene_solid.translation().z() = -0.5;
+  AnalyticScene scene = table_over_floor(0.5, 0.4, 0.5);
   scene.camera = {looking_at({0, -0.6, 0.9}, {0, 0, 0}), 320, 240, 230};
   const VoxelSurfaces s = voxel_surfaces(render(scene));
   for (const SupportConfig& config : {SupportConfig{}, fine(s.cloud, 0.006f)}) {
@@ -152,31 +161,15 @@ TEST(Support, TheTableRatherThanTheLargerFloorBelow) {
   }
 }
 
-/// Range noise that grows with the square of the distance, as that of cameras with a baseline does.
-PointCloud with_growing_noise(const PointCloud& cloud, float sigma_at_1m) {
-  std::mt19937 random(1);
-  std::normal_distribution<float> noise(0, sigma_at_1m);
-  PointCloud result = cloud;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const Eigen::Vector3f ray = cloud.point(i) - cloud.viewpoint;
-    const Eigen::Vector3f p = cloud.point(i) + noise(random) * ray.norm() * ray;
-    result.x[i] = p.x();
-    result.y[i] = p.y();
-    result.z[i] = p.z();
-  }
-  return result;
-}
-
 TEST(Support, TheTableBeforeAFloorTooFarToBeMeasuredWell) {
   // From 30 degrees above the table more of the floor behind it is seen than of the table: all of it is
   // behind the table's plane, and too rough for a plane of its own.
-  AnalyticScene scene =
-      on_table({standing_box(0, 0, {0.8, 0.5, 0.03}), standing_box(0.05, 0, {0.05, 0.1, 0.08})});
-  scene.solids[1].T_scene_solid.translation().z() = -0.015;
-  scene.solids[0].T_scene_solid.translation().z() = -0.7;
+  AnalyticScene scene = table_over_floor(0.8, 0.5, 0.7);
   scene.camera = {looking_at({0, -0.75, 0.43}, {0, 0, 0}), 320, 240, 260};
   RenderedScene rendered = render(scene);
-  rendered.cloud = with_growing_noise(finite_points(rendered.cloud), 0.004f);
+  // It grows with the square of the distance, as that of cameras with a baseline does.
+  const auto sigma_m = [](float range_m) { return 0.004f * range_m * range_m; };
+  rendered.cloud = with_range_noise(finite_points(rendered.cloud), sigma_m, 1);
   const auto below = static_cast<std::size_t>(
       std::count_if(rendered.cloud.z.begin(), rendered.cloud.z.end(), [&](float z) { return z < -0.3f; }));
   EXPECT_GT(2 * below, rendered.cloud.size());
@@ -186,11 +179,7 @@ TEST(Support, TheTableBeforeAFloorTooFarToBeMeasuredWell) {
 
 TEST(Support, TheTableBeforeALargerWallFartherAway) {
   // A table of 0.8 m x 0.5 m with a box on it, and a wall of 3 m x 2 m that stands 1 m behind it.
-  AnalyticScene scene =
-      on_table({standing_box(0, 0, {0.8, 0.5, 0.03}), standing_box(0.05, 0, {0.05, 0.1, 0.08}),
-                standing_box(0, 1.5, {3, 0.1, 2})});
-  scene.solids[1].T_scene_solid.translation().z() = -0.015;
-  scene.solids[0].T_scene_solid.translation().z() = -0.7;
+  AnalyticScene scene = table_over_floor(0.8, 0.5, 0.7, {standing_box(0, 1.5, {3, 0.1, 2})});
   scene.camera = {looking_at({0, -0.8, 0.4}, {0, 0.2, 0}), 320, 240, 260};
   const PointCloud cloud = finite_points(render(scene).cloud);
   expect_plane(find_support(cloud, {}), Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Zero());
