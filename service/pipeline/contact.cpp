@@ -229,6 +229,7 @@ bool is_thin_edge(const ContactInput& in, float side, float end_m) {
     ++near;
     high += is_high ? 1 : 0;
   }
+  if (!is_plate(in.extent_m, in.depth_m - in.top_m)) return false;
   return far - low <= kThin && 2 * high >= near && is_seen_through(in, side, end_m);
 }
 

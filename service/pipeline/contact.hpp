@@ -52,6 +52,12 @@ struct Contact {
 /// Of circles that a profile may be part of; larger ones count as flat [m].
 inline constexpr float kMaxRadius = 0.06f;
 
+/// Whether what reaches so deep between the jaws can be a plate met at its edge: of a rod no more is there than
+/// it is wide.
+[[nodiscard]] inline bool is_plate(float width_m, float depth_m) {
+  return depth_m > 1.2f * width_m;
+}
+
 /// side: -1 or +1 along the closing axis; end_m: where the object's seen points end there; hidden_share: of
 /// the finger's volume beside it.
 [[nodiscard]] Contact find_contact(const ContactInput& in, float side, float end_m, float hidden_share);

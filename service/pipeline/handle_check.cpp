@@ -54,6 +54,9 @@ class Check {
   [[nodiscard]] Failure check_support() const;
   [[nodiscard]] Failure check_silhouettes();
   [[nodiscard]] Failure check_walls();
+  /// How deep the object reaches between the jaws [m].
+  [[nodiscard]] float grip_depth() const { return gripper_.grasp_depth_m - top_; }
+  [[nodiscard]] bool is_thin_wall(const Contact& low, const Contact& high) const;
   [[nodiscard]] bool check_square(const Contact& low, const Contact& high, bool round);
   [[nodiscard]] Failure check_contacts();
   [[nodiscard]] Failure check_unseen();
@@ -191,7 +194,8 @@ Failure Check::check_silhouettes() {
 }
 
 Failure Check::check_walls() {
-  constexpr float kAbove = 0.010f, kBelow = 0.005f, kBeside = 0.03f;
+  constexpr float kBelow = 0.005f, kBeside = 0.03f, kOfShallow = 0.6f;
+  const float above = grip_depth() < config_.min_grip_depth_m ? kOfShallow * grip_depth() : 0.010f;
   const float half = half_opening(), l = gripper_.grasp_depth_m;
   float near_low = 1, near_high = -1, far_low = 1, far_high = -1;
   const auto extend = [&](float max_depth, float& low, float& high) {
@@ -199,9 +203,9 @@ Failure Check::check_walls() {
                                local_.band(), buffers_.own.data(), low, high);
   };
   extend(l + kBelow, far_low, far_high);
-  extend(l - kAbove, near_low, near_high);
+  extend(l - above, near_low, near_high);
   if (near_high <= near_low) return Failure::kWalls;
-  const float limit = (kAbove + kBelow) * std::tan(radians(config_.max_wall_angle_deg));
+  const float limit = (above + kBelow) * std::tan(radians(config_.max_wall_angle_deg));
   const float widening = std::max(far_high - near_high, near_low - far_low);
   margins_.walls = 1 - widening / limit;
   return widening > limit ? Failure::kWalls : Failure::kNone;
@@ -243,16 +247,17 @@ Eigen::Vector3f Check::squared_axis(const Contact& low, const Contact& high, boo
   return axis.normalized();
 }
 
-/// A thin wall that the jaws do not meet squarely is met at its edges, and turns.
-bool is_thin(const Contact& low, const Contact& high) {
-  return high.reach_m - low.reach_m < kThinWall;
+/// A thin wall that the jaws do not meet squarely is met at its edges, and turns; a thin rod does not.
+bool Check::is_thin_wall(const Contact& low, const Contact& high) const {
+  const float width = high.reach_m - low.reach_m;
+  return width < kThinWall && is_plate(width, grip_depth());
 }
 
 /// Whether the jaws would meet the object squarely enough.
 bool Check::check_square(const Contact& low, const Contact& high, bool round) {
   Eigen::Vector3f squared = squared_axis(low, high, round);
   float most_off = config_.max_misalignment_deg, doubt = 0;
-  if (is_thin(low, high)) {
+  if (is_thin_wall(low, high)) {
     const WallShape wall = fit_wall(local_, between_, top_, gripper_);
     if (margins_.has_thin_edge() && wall.bend_m > kMaxBend) return false;
     squared =
@@ -269,7 +274,9 @@ bool Check::check_square(const Contact& low, const Contact& high, bool round) {
 }
 
 Failure Check::check_contacts() {
-  if (seen_area() < config_.min_contact_area_m2 || gripper_.grasp_depth_m - top_ < config_.min_grip_depth_m)
+  const Eigen::Vector3f approach = handle_.rotation.col(2);
+  if (seen_area() < config_.min_contact_area_m2 ||
+      grip_depth() < least_grip_depth(scene_, config_, handle_.position + top_ * approach, approach))
     return Failure::kContact;
   buffers_.profile.clear();
   // Where the far side is known, nothing needs to be guessed from the profile.
@@ -300,11 +307,11 @@ Failure Check::check_contacts() {
   if (!check_square(low, high, input.circle.has_value())) return Failure::kContact;
   set_width_from(low, high);
   margins_.width = (gripper_.aperture_m - handle_.width_m) / (kAmpleRoom * gripper_.aperture_m);
-  if (!candidate_.is_on_known_wall() || !is_thin(low, high)) {
+  if (!candidate_.is_on_known_wall() || !is_thin_wall(low, high)) {
     margins_.thickness = (handle_.width_m - kThin) / (kThick - kThin);
     margins_.area = (seen_area() - config_.min_contact_area_m2) / kAmpleArea;
   }
-  margins_.grip_depth = (gripper_.grasp_depth_m - top_) / gripper_.grasp_depth_m;
+  margins_.grip_depth = grip_depth() / gripper_.grasp_depth_m;
   return handle_.width_m > gripper_.aperture_m - 0.002f ? Failure::kTooWide : Failure::kNone;
 }
 

@@ -48,6 +48,7 @@ struct HandleCheckConfig {
   float support_clearance_m = 0.0f;
   float min_own_share = 0.90f;
   float min_grip_depth_m = 0.012f;
+  float min_grip_share = 0.6f;
   float min_contact_area_m2 = 1e-4f;
   float max_silhouette_angle_deg = 35.0f;
   float max_wall_angle_deg = 30.0f;
@@ -67,6 +68,8 @@ struct HandleCheckConfig {
       "share of the points between the jaws that belong to one object");
     v("min_grip_depth_m", self.min_grip_depth_m, Range{0.001, 0.1},
       "how deep the object must reach between the jaws [m]");
+    v("min_grip_share", self.min_grip_share, Range{0.5, 1},
+      "of the height above the support of what is so low that this is less");
     v("min_contact_area_m2", self.min_contact_area_m2, Range{0, 0.01},
       "how much of it must be seen between the jaws [m2]");
     v("max_silhouette_angle_deg", self.max_silhouette_angle_deg, Range{1, 89},

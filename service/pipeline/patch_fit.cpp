@@ -211,13 +211,27 @@ void describe_points(const BandTags& tags, CheckBuffers& buffers) {
 
 }  // namespace
 
+float least_grip_depth(const SceneView& scene, const HandleCheckConfig& config, const Eigen::Vector3f& top,
+                       const Eigen::Vector3f& approach) {
+  constexpr float kSteep = 0.5f;     // cosine between approach and support's normal
+  constexpr float kLowest = 0.010f;  // of what counts as a thing on the support [m]
+  if (!scene.support) return config.min_grip_depth_m;
+  const float steepness = -approach.dot(scene.support->plane.normal);
+  if (steepness < kSteep) return config.min_grip_depth_m;
+  const float height = std::max(kLowest, scene.support->plane.height(top));
+  return std::min(config.min_grip_depth_m, config.min_grip_share * height / steepness);
+}
+
 Failure fit_patch(const SceneView& scene, const Gripper& gripper, const HandleCheckConfig& config,
                   const Candidate& candidate, CheckBuffers& buffers, PatchFit& fit) {
   const Gripper& g = gripper;
   const float reach = profile_reach(scene, g);
   const BandTags tags = band_tags(scene, candidate, reach);
   // As far up as the fingers reach when they go in the least deep; and further, as most tops are there.
-  const float above = g.finger_length_m - config.min_grip_depth_m + kTopWindow, further = g.finger_length_m;
+  const Eigen::Vector3f approach = candidate.rotation.col(2);
+  const float above = g.finger_length_m - least_grip_depth(scene, config, candidate.position, approach) +
+                      kTopWindow,
+              further = g.finger_length_m;
   const float below = g.grasp_depth_m + kBelowTips + kLower;
   float gathered_m = std::numeric_limits<float>::infinity();
   const auto look_at = [&](float z) {
@@ -238,7 +252,10 @@ Failure fit_patch(const SceneView& scene, const Gripper& gripper, const HandleCh
     return failure != Failure::kNone ? failure : settle_top(search, buffers, look_at, fit);
   };
   // What the fingertips may be less deep by.
-  float room = g.grasp_depth_m - config.min_grip_depth_m;
+  const auto room_below = [&](float top_m) {
+    return g.grasp_depth_m - least_grip_depth(scene, config, candidate.position + top_m * approach, approach);
+  };
+  float room = room_below(fit.top_m);
   float raise = std::min(room, std::max(0.0f, g.grasp_depth_m - candidate.depth_m));
   Failure failure = fit_to(g.grasp_depth_m - raise);
   if (failure == Failure::kNoGap && fit.width_m <= g.aperture_m) {
@@ -248,8 +265,8 @@ Failure fit_patch(const SceneView& scene, const Gripper& gripper, const HandleCh
     failure = fit_to(g.grasp_depth_m - raise);
   }
   if (failure != Failure::kNone) return failure;
+  room = room_below(fit.top_m) - raise;
   fit.top_m -= raise;
-  room -= raise;
   raise = raise_for_obstacles(scene, g, config, candidate, buffers, fit);
   if (raise > room) return Failure::kFingers;
   fit.top_m -= raise;

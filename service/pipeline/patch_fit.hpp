@@ -16,6 +16,12 @@ struct PatchFit {
   std::array<float, 2> gap_m{};  ///< free beside it on both sides, at most d
 };
 
+/// How deep the object must reach between the jaws [m]: what lies on the support may be lower than
+/// min_grip_depth_m; then it is held by most of its height. top: the object's, in the cloud's frame;
+/// approach: unit.
+[[nodiscard]] float least_grip_depth(const SceneView& scene, const HandleCheckConfig& config,
+                                     const Eigen::Vector3f& top, const Eigen::Vector3f& approach);
+
 /// Gathers the points around the candidate into buffers (relative to the fitted position) and fits. The
 /// fingertips go l below the patch's top, or less deep where the support or something else is in their way.
 [[nodiscard]] Failure fit_patch(const SceneView& scene, const Gripper& gripper,

@@ -130,7 +130,7 @@ float scatter(const PointCloud& cloud, const Plane& plane, float thickness_m) {
 float support_thickness(const Eigen::Vector3f& p, const Eigen::Vector3f& viewpoint, float sigma_m,
                         const SupportConfig& config) {
   const float beyond = std::max(0.0f, (p - viewpoint).norm() - 0.8f);
-  return std::max(config.thickness_m, 3.5f * sigma_m) + config.thickness_per_m * beyond;
+  return std::max(config.min_thickness_m, 3.5f * sigma_m) + config.thickness_per_m * beyond;
 }
 
 namespace {

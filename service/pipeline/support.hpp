@@ -25,6 +25,7 @@ struct SupportConfig {
   float min_area_m2 = 0.03f;
   float min_upper_area_m2 = 0.12f;
   float thickness_m = 0.008f;
+  float min_thickness_m = 0.005f;
   float thickness_per_m = 0.006f;
   float max_normal_angle_deg = 25.0f;
   int hypotheses = 200;
@@ -37,7 +38,10 @@ struct SupportConfig {
     v("min_upper_area_m2", self.min_upper_area_m2, Range{0.001, 100},
       "a parallel plane above the largest one with this connected area is the support: a table over the "
       "floor [m2]");
-    v("thickness_m", self.thickness_m, Range{0.001, 0.1}, "points this close to the plane belong to it [m]");
+    v("thickness_m", self.thickness_m, Range{0.001, 0.1},
+      "points this close to a plane are its own while the support is looked for [m]");
+    v("min_thickness_m", self.min_thickness_m, Range{0.001, 0.1},
+      "points this close to the support belong to it, and up to 3.5 times as far as they scatter [m]");
     v("thickness_per_m", self.thickness_per_m, Range{0, 0.1},
       "more for each metre beyond 0.8 m from the sensor [m]");
     v("max_normal_angle_deg", self.max_normal_angle_deg, Range{1, 89},

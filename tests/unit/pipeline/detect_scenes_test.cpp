@@ -51,8 +51,9 @@ void expect_frame(const Handle& handle, const Eigen::Vector3f& viewpoint) {
   EXPECT_LE(handle.score, 1);
 }
 
-/// What holds for every handle of every scene.
-void expect_sound(const Detected& d, const Handle& handle, const HandleTruth& truth) {
+/// What holds for every handle of every scene. least_grip_m: how deep what is held must reach between the
+/// jaws.
+void expect_sound(const Detected& d, const Handle& handle, const HandleTruth& truth, double least_grip_m) {
   expect_frame(handle, d.scene.camera.T_scene_camera.translation().cast<float>());
   EXPECT_GE(truth.solid, 1) << "not on the table";
   EXPECT_EQ(truth.num_between, 1) << "one object between the jaws";
@@ -63,14 +64,14 @@ void expect_sound(const Detected& d, const Handle& handle, const HandleTruth& tr
   EXPECT_LT(truth.finger_depth_m, 0.0005) << "the fingers come in without touching anything";
   EXPECT_LT(truth.hand_depth_m, 0.0005) << "nothing is in the way of the hand";
   // A finger that would hit the table goes less deep, but not so little that it does not hold.
-  EXPECT_GT(truth.grip_depth_m, d.config.check.min_grip_depth_m - 0.003);
+  EXPECT_GT(truth.grip_depth_m, least_grip_m - 0.003);
 }
 
-void expect_all_sound(const Detected& d) {
+void expect_all_sound(const Detected& d, double least_grip_m = HandleCheckConfig{}.min_grip_depth_m) {
   std::set<int> seen;
   for (std::size_t i = 0; i < d.handles().size(); ++i) {
     SCOPED_TRACE("handle " + std::to_string(i) + " on solid " + std::to_string(d.truth[i].solid));
-    expect_sound(d, d.handles()[i], d.truth[i]);
+    expect_sound(d, d.handles()[i], d.truth[i], least_grip_m);
     if (seen.insert(d.truth[i].solid).second) {
       EXPECT_GT(d.handles()[i].width_m, d.truth[i].width_m - 0.003)
           << "the best of its object: a wider opening costs room, one too narrow the grip";
@@ -130,6 +131,19 @@ TEST(DetectScenes, LyingCylinder) {
   ASSERT_GE(d.num_on(1), 1);
   for (const Handle& handle : d.handles())
     EXPECT_GT(closing_angle(handle, Eigen::Vector3d::UnitX()), 65 * kDegree) << "140 mm are too long";
+}
+
+TEST(DetectScenes, LyingPens) {
+  for (const double radius : {0.006, 0.007, 0.009})
+    for (const double yaw : {-60.0, -20.0, 10.0, 40.0, 80.0}) {
+      SCOPED_TRACE(radius);
+      SCOPED_TRACE(yaw);
+      const Detected d = detect(on_table({lying_cylinder(0, 0, radius, 0.14, yaw * kDegree)}));
+      expect_all_sound(d, d.config.check.min_grip_share * 2 * radius);
+      ASSERT_GE(d.num_on(1), 1);
+      const Eigen::Vector3d along(std::cos(yaw * kDegree), std::sin(yaw * kDegree), 0);
+      for (const Handle& handle : d.handles()) EXPECT_GT(closing_angle(handle, along), 75 * kDegree);
+    }
 }
 
 TEST(DetectScenes, ABottleBesideABoxIsTakenAboveTheBox) {

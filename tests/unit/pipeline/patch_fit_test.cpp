@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/support/scene_gallery.hpp"
 #include "tests/unit/pipeline/check_scene.hpp"
 
@@ -88,8 +90,31 @@ TEST(PatchFit, WiderThanTheApertureIsTooWide) {
 }
 
 TEST(PatchFit, OnAFlatThingTheSupportLeavesNoDepth) {
+  const CheckScene scene(on_table({standing_box(0, 0, {0.05, 0.12, 0.007})}));
+  EXPECT_EQ(fit_from_above(scene, {0, 0, 0.007f}).failure, Failure::kFingers);
+}
+
+TEST(PatchFit, ALowThingIsTakenByMostOfItsHeight) {
+  const HandleCheckConfig config;
+  for (const float height : {0.011f, 0.014f, 0.018f}) {
+    SCOPED_TRACE(height);
+    const CheckScene scene(on_table({standing_box(0, 0, {0.05, 0.12, height})}));
+    const Fitted fitted = fit_from_above(scene, {0, 0, height});
+    ASSERT_EQ(fitted.failure, Failure::kNone);
+    const float tip_z = fitted.position.z() - Gripper{}.grasp_depth_m;
+    EXPECT_GT(tip_z, 0);
+    EXPECT_LT(tip_z, height - std::min(config.min_grip_depth_m, config.min_grip_share * height) + 0.0005f);
+    EXPECT_LT(tip_z, 0.005f) << "no higher than it must";
+  }
+}
+
+TEST(PatchFit, FromTheSideALowThingOffersNoLessThanAnyOther) {
   const CheckScene scene(on_table({standing_box(0, 0, {0.05, 0.12, 0.014})}));
-  EXPECT_EQ(fit_from_above(scene, {0, 0, 0.014f}).failure, Failure::kFingers);
+  const HandleCheckConfig config;
+  const Eigen::Vector3f top(0, 0, 0.014f), level = Eigen::Vector3f::UnitY();
+  EXPECT_FLOAT_EQ(least_grip_depth(scene.view(), config, top, level), config.min_grip_depth_m);
+  EXPECT_NEAR(least_grip_depth(scene.view(), config, top, kDown), config.min_grip_share * 0.014f, 3e-4f);
+  EXPECT_FLOAT_EQ(least_grip_depth(scene.view(), config, {0, 0, 0.05f}, kDown), config.min_grip_depth_m);
 }
 
 TEST(PatchFit, FingersGoLessDeepWhereTheSupportIsNear) {

@@ -214,10 +214,10 @@ TEST(Support, TheSameCloudGivesTheSamePlane) {
 TEST(Support, ThicknessGrowsWithDistanceAndScatter) {
   const SupportConfig config;
   const Eigen::Vector3f eye(0, 0, 0);
-  EXPECT_FLOAT_EQ(support_thickness({0, 0, 0.5f}, eye, 0, config), config.thickness_m);
-  EXPECT_FLOAT_EQ(support_thickness({0, 0, 0.8f}, eye, 0, config), config.thickness_m);
-  EXPECT_NEAR(support_thickness({0, 0, 1.8f}, eye, 0, config), config.thickness_m + config.thickness_per_m,
-              1e-6);
+  EXPECT_FLOAT_EQ(support_thickness({0, 0, 0.5f}, eye, 0, config), config.min_thickness_m);
+  EXPECT_FLOAT_EQ(support_thickness({0, 0, 0.8f}, eye, 0, config), config.min_thickness_m);
+  EXPECT_NEAR(support_thickness({0, 0, 1.8f}, eye, 0, config),
+              config.min_thickness_m + config.thickness_per_m, 1e-6);
   EXPECT_NEAR(support_thickness({0, 0, 0.5f}, eye, 0.004f, config), 0.014f, 1e-6);
 }
 
