@@ -52,8 +52,8 @@ struct Contact {
 /// Of circles that a profile may be part of; larger ones count as flat [m].
 inline constexpr float kMaxRadius = 0.06f;
 
-/// Whether what reaches so deep between the jaws can be a plate met at its edge: of a rod no more is there than
-/// it is wide.
+/// Whether what reaches so deep between the jaws can be a plate met at its edge: of a rod there is no more of
+/// it than it is wide.
 [[nodiscard]] inline bool is_plate(float width_m, float depth_m) {
   return depth_m > 1.2f * width_m;
 }

@@ -70,8 +70,43 @@ TEST(Leftovers, SurfacesKeepTheirLabelsBesideThem) {
   EXPECT_GE(grown.after.of_point.back(), 0);
 }
 
-TEST(Leftovers, WhatIsAboutAsLongAsWideOrExcludedStaysWithout) {
-  const PointCloud stub = half_cylinder(0.005f, 0.02f, Eigen::Vector3f::Zero());
+/// The upper half of a torus around z.
+PointCloud half_ring(float radius_m, float thickness_m) {
+  PointCloud cloud;
+  const float pi = std::numbers::pi_v<float>;
+  const int along = static_cast<int>(2 * pi * radius_m / kTestLeaf);
+  const int around = static_cast<int>(pi * thickness_m / kTestLeaf);
+  for (int i = 0; i < along; ++i)
+    for (int k = 0; k <= around; ++k) {
+      const float a = 2 * pi * static_cast<float>(i) / static_cast<float>(along);
+      const float b = pi * static_cast<float>(k) / static_cast<float>(around);
+      const float r = radius_m + thickness_m * std::cos(b);
+      cloud.push_back({r * std::cos(a), r * std::sin(a), thickness_m * std::sin(b)});
+    }
+  cloud.viewpoint = {0, 0, 1};
+  return cloud;
+}
+
+TEST(Leftovers, WhatStandsAloneIsOneThingAlsoIfItIsNotLong) {
+  for (const PointCloud& cloud :
+       {half_ring(0.04f, 0.005f), half_cylinder(0.005f, 0.025f, Eigen::Vector3f::Zero())}) {
+    const Grown grown = grow(cloud);
+    const std::set<std::int32_t> labels(grown.after.of_point.begin(), grown.after.of_point.end());
+    EXPECT_EQ(labels.size(), 1u);
+    EXPECT_GE(*labels.begin(), 0);
+  }
+}
+
+TEST(Leftovers, AStubOnASurfaceStaysWithout) {
+  PointCloud cloud = grid_patch({-0.1f, -0.05f, -0.005f}, {kTestLeaf, 0, 0}, {0, kTestLeaf, 0}, 60, 30);
+  cloud = joined(cloud, half_cylinder(0.005f, 0.025f, Eigen::Vector3f::Zero()));
+  cloud.viewpoint = {0, 0, 1};
+  const Grown grown = grow(cloud);
+  EXPECT_EQ(grown.after.of_point, grown.before.of_point);
+}
+
+TEST(Leftovers, WhatIsTooSmallOrExcludedStaysWithout) {
+  const PointCloud stub = half_cylinder(0.005f, 0.01f, Eigen::Vector3f::Zero());
   const Grown grown = grow(stub);
   EXPECT_EQ(grown.after.of_point, grown.before.of_point);
   const PointCloud pen = half_cylinder(0.005f, 0.13f, Eigen::Vector3f::Zero());
