@@ -54,8 +54,9 @@ void add_options(CLI::App& app, Options& o) {
   app.add_option("--scene", o.scene, "what the camera sees")
       ->check(CLI::IsMember(scene_kind_names()))
       ->capture_default_str();
-  app.add_option("-n,--objects", o.simulation.scene.num_objects,
-                 "objects in a scene, as many as find a place (default: 8; easy 4, hard 14, extreme 24)")
+  app.add_option(
+         "-n,--objects", o.simulation.scene.num_objects,
+         "objects in a scene, as many as find a place (default: 8; easy 4, hard 14, extreme 24, household 6)")
       ->check(CLI::Range(0, 200));
   app.add_option("--sensor", o.sensor, "noise, steps, dropouts and edges of which sensor")
       ->check(CLI::IsMember({"ideal", "kinect", "realsense"}))

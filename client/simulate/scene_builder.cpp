@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "client/simulate/clutter.hpp"
+#include "client/simulate/household_models.hpp"
 #include "client/simulate/placement.hpp"
 
 namespace graspd {
@@ -26,13 +27,14 @@ struct KindOfScene {
   bool in_bin;
   int num_objects;  // where the configuration does not say
 };
-constexpr std::array<KindOfScene, 7> kKinds{{{"table", SceneKind::kTable, false, 8},
+constexpr std::array<KindOfScene, 8> kKinds{{{"table", SceneKind::kTable, false, 8},
                                              {"bin", SceneKind::kBin, true, 8},
                                              {"empty", SceneKind::kEmpty, false, 0},
                                              {"easy", SceneKind::kEasy, false, 4},
                                              {"medium", SceneKind::kMedium, false, 8},
                                              {"hard", SceneKind::kHard, false, 14},
-                                             {"extreme", SceneKind::kExtreme, true, 24}}};
+                                             {"extreme", SceneKind::kExtreme, true, 24},
+                                             {"household", SceneKind::kHousehold, false, 6}}};
 
 const KindOfScene& properties(SceneKind kind) {
   return kKinds[static_cast<std::size_t>(kind)];
@@ -68,10 +70,10 @@ void add_bin(Scene& scene, Ground& ground) {
   }
 }
 
-/// What the first simulated scenes were made of; nothing leans, and books lie alone.
-void add_loose_objects(Scene& scene, Ground& ground, int num_objects, Rng& rng) {
+/// Nothing leans, and nothing lies on something else.
+void add_loose_objects(ObjectModel (*make)(Rng&), int num_objects, Scene& scene, Ground& ground, Rng& rng) {
   for (int i = 0; i < num_objects; ++i) {
-    ObjectModel model = make_random_object(rng);
+    ObjectModel model = make(rng);
     if (const auto place = find_place({}, ground, model, rng)) put(scene, ground, std::move(model), *place);
   }
 }
@@ -120,8 +122,11 @@ Scene build_scene(const SceneConfig& config, std::uint64_t seed) {
       ground.walled = true;
       add_clutter(extreme_clutter(), num, scene, ground, rng);
       break;
+    case SceneKind::kHousehold:
+      add_loose_objects(make_household_object, num, scene, ground, rng);
+      break;
     default:
-      add_loose_objects(scene, ground, num, rng);
+      add_loose_objects(make_random_object, num, scene, ground, rng);
   }
   return scene;
 }

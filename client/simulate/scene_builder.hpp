@@ -14,8 +14,9 @@
 namespace graspd {
 
 /// table, bin: everyday objects, loosely. easy to extreme: a test bed of growing clutter, the last one a bin
-/// of touching books, bottles and boxes, some leaning or dropped on others.
-enum class SceneKind { kTable, kBin, kEmpty, kEasy, kMedium, kHard, kExtreme };
+/// of touching books, bottles and boxes, some leaning or dropped on others. household: tools, fruit and other
+/// things that are long, bent or put together, loosely.
+enum class SceneKind { kTable, kBin, kEmpty, kEasy, kMedium, kHard, kExtreme, kHousehold };
 [[nodiscard]] std::optional<SceneKind> scene_kind(std::string_view name);
 [[nodiscard]] std::vector<std::string> scene_kind_names();
 [[nodiscard]] bool in_bin(SceneKind kind);
