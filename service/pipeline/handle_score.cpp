@@ -37,10 +37,10 @@ float doubt(float margin, float weight) {
 float score(const HandleMargins& m) {
   constexpr float kBestLogOdds = 5.0f;
   const float doubts = doubt(m.contact[0]) + doubt(m.contact[1]) + doubt(m.square, 3.4f) +
-                       doubt(m.area, 2.2f) + doubt(m.walls, 3.4f) + doubt(m.seen, 1.6f) +
-                       doubt(m.thickness, 1.3f) + doubt(m.silhouettes, 2.3f) + doubt(m.grip_depth, 0.1f) +
-                       doubt(m.central, 0.2f) + doubt(m.width, 0.1f) + doubt(m.one_face, 3.0f) +
-                       doubt(m.steady, 2.0f);
+                       doubt(m.area, 2.2f) + doubt(m.walls, 3.4f) + doubt(m.grip, 2.5f) +
+                       doubt(m.seen, 1.6f) + doubt(m.thickness, 1.3f) + doubt(m.silhouettes, 2.3f) +
+                       doubt(m.grip_depth, 0.1f) + doubt(m.central, 0.2f) + doubt(m.width, 0.1f) +
+                       doubt(m.one_face, 3.0f) + doubt(m.steady, 2.0f);
   return 1 / (1 + std::exp(doubts - kBestLogOdds));
 }
 

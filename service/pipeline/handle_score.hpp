@@ -16,6 +16,7 @@ struct HandleMargins {
   float grip_depth = 1;   ///< how deep the object reaches between the jaws
   float silhouettes = 1;  ///< how parallel the sides are to the major axis
   float square = 1;       ///< how squarely the jaws meet walls or sides
+  float grip = 1;         ///< how far both walls are from leaning so much that the jaws squeeze it out
   float walls = 1;        ///< how little they widen towards the fingertips
   float seen = 1;         ///< smaller of the two fingers' observed free shares
   float thickness = 1;    ///< how far the object is from so narrow that its normals mix both of its sides
@@ -32,8 +33,8 @@ struct HandleMargins {
 /// The chance that the handle holds: a logistic function of the contacts and the margins, each of which takes
 /// from the log odds of the best handle there can be. The weights come from a logistic regression over
 /// handles on simulated scenes, for two sensors and several apertures, that were judged on their true solids
-/// (graspd-evaluate --simulate); no real frame took part. That of thin edges and the best
-/// log odds were set by hand.
+/// (graspd-evaluate --simulate); no real frame took part. Those of thin edges and of the grip,
+/// and the best log odds, were set by hand.
 [[nodiscard]] float score(const HandleMargins& margins);
 
 }  // namespace graspd

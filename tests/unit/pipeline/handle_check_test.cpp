@@ -96,6 +96,25 @@ TEST(HandleCheck, ABoxIsHeldAcrossItsNarrowSideOnly) {
   EXPECT_EQ(check(Eigen::Vector3f::UnitY()).failure, Failure::kTooWide) << "120 mm";
 }
 
+TEST(HandleCheck, JawsThatEndShortOfTheWidestPlaceOfARoundThingAreDoubted) {
+  const CheckScene scene(on_table({standing_cylinder(0, 0, 0.036, 0.12)}));
+  CheckBuffers buffers;
+  const auto grip = [&](const Eigen::Vector3f& position, const Eigen::Vector3f& approach, float depth_m) {
+    Candidate candidate = scene.candidate(position, approach, Eigen::Vector3f::UnitX());
+    candidate.depth_m = depth_m;
+    const CheckResult result = check_candidate(scene.view(), {}, {}, candidate, buffers);
+    EXPECT_EQ(result.failure, Failure::kNone);
+    return result.margins.grip;
+  };
+  // From the front and above the fingertips go 21 or 25 mm level into a thing whose middle is at 36 mm.
+  const Eigen::Vector3f front(0, -0.036f, 0.08f), inclined = Eigen::Vector3f(0, 0.82f, -0.57f).normalized();
+  const float short_of_it = grip(front, inclined, 0.026f), nearer = grip(front, inclined, 0.030f);
+  EXPECT_LT(short_of_it, 0.1f);
+  EXPECT_GT(nearer, short_of_it);
+  EXPECT_LT(nearer, 0.5f);
+  EXPECT_GE(grip({0, 0, 0.12f}, -Eigen::Vector3f::UnitZ(), 0.030f), 1) << "around the whole of it";
+}
+
 TEST(HandleCheck, HalfOfAFingerOnTheEndOfABoxIsEnough) {
   const Gripper gripper;
   const CheckScene scene(box_on_table());

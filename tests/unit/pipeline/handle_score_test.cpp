@@ -16,7 +16,7 @@ using Margin = float HandleMargins::*;
 constexpr std::array kMargins{
     &HandleMargins::width,   &HandleMargins::grip_depth, &HandleMargins::silhouettes, &HandleMargins::square,
     &HandleMargins::walls,   &HandleMargins::seen,       &HandleMargins::thickness,   &HandleMargins::area,
-    &HandleMargins::central, &HandleMargins::one_face};
+    &HandleMargins::central, &HandleMargins::one_face,   &HandleMargins::grip};
 constexpr std::array kKinds{ContactKind::kNone,       ContactKind::kWall,     ContactKind::kFreeEdge,
                             ContactKind::kCurvedEdge, ContactKind::kFlatEdge, ContactKind::kThinEdge};
 
