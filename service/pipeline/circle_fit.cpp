@@ -18,7 +18,6 @@ namespace {
 constexpr std::size_t kMinPoints = 12;
 constexpr std::size_t kMostPoints = 160;
 constexpr float kScale = 0.002f;  // of the weights [m]
-constexpr float kNear = 0.0035f;  // a point that belongs to the circle [m]
 constexpr float kMinNearShare = 0.85f;
 constexpr int kSectors = 36;
 constexpr int kMinSectors = 6;
@@ -48,13 +47,13 @@ class Sample {
     return {c.head<2>().cast<float>(), static_cast<float>(radius)};
   }
 
-  /// Whether most points belong to the circle, and to more than a small part of it.
-  [[nodiscard]] bool is_described_by(const Circle& circle) const {
+  /// Whether most points, within the tolerance, belong to the circle, and to more than a small part of it.
+  [[nodiscard]] bool is_described_by(const Circle& circle, float tolerance_m) const {
     std::array<std::uint8_t, kMostPoints> is_near;
     std::size_t num_near = 0;
     for (std::size_t k = 0; k < size_; ++k) {
       const float x = x_[k] - circle.center.x(), y = y_[k] - circle.center.y();
-      is_near[k] = std::abs(std::sqrt(x * x + y * y) - circle.radius) <= kNear ? 1 : 0;
+      is_near[k] = std::abs(std::sqrt(x * x + y * y) - circle.radius) <= tolerance_m ? 1 : 0;
       num_near += is_near[k];
     }
     if (static_cast<float>(num_near) < kMinNearShare * static_cast<float>(size_)) return false;
@@ -78,7 +77,8 @@ class Sample {
 
 }  // namespace
 
-std::optional<Circle> fit_circle(std::span<const Eigen::Vector2f> points, float max_radius_m) {
+std::optional<Circle> fit_circle(std::span<const Eigen::Vector2f> points, float max_radius_m,
+                                 float tolerance_m) {
   if (points.size() < kMinPoints) return std::nullopt;
   const Sample sample(points, circle_step(points.size()));
   Circle circle;
@@ -86,7 +86,7 @@ std::optional<Circle> fit_circle(std::span<const Eigen::Vector2f> points, float 
     circle = sample.fit({circle.center.x(), circle.center.y(), circle.radius, round == 0 ? 0 : 1 / kScale});
     if (!(circle.radius <= max_radius_m)) return std::nullopt;
   }
-  if (!sample.is_described_by(circle)) return std::nullopt;
+  if (!sample.is_described_by(circle, tolerance_m)) return std::nullopt;
   circle.center += sample.mean();
   return circle;
 }

@@ -20,8 +20,9 @@ struct Circle {
 }
 
 /// Least squares in the algebraic distance (Kasa), reweighted by Cauchy weights with a scale of 2 mm. Nothing
-/// where fewer than 12 points are given, where the circle does not pass within 3.5 mm of 85 % of them, or
-/// where these see less than a sixth of it: then the points do not tell a circle from something else.
-[[nodiscard]] std::optional<Circle> fit_circle(std::span<const Eigen::Vector2f> points, float max_radius_m);
+/// where fewer than 12 points are given, where the circle does not pass within the tolerance of 85 % of them,
+/// or where these see less than a sixth of it: then the points do not tell a circle from something else.
+[[nodiscard]] std::optional<Circle> fit_circle(std::span<const Eigen::Vector2f> points, float max_radius_m,
+                                               float tolerance_m);
 
 }  // namespace graspd

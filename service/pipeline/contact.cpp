@@ -24,6 +24,8 @@ constexpr float kCameraSide = 0.40f;   // cosine: beyond it the sensor would hav
 constexpr float kMaxWedge = 0.65f;     // mean tilt of a face that ends at free space [rad]
 constexpr float kMaxFlatTilt = 0.40f;  // tilt of a flat face that is carried on [rad]
 constexpr float kMaxDoubt = 0.006f;    // between two guesses at where a round face ends [m]
+constexpr float kMinTurn = 0.05f;      // of a face that is not flat [rad]
+constexpr float kMinTurningSpan = 0.013f;  // along a shorter one only its edges turn [m]
 constexpr float kMaxUnseenBulge = 0.012f;  // beyond an edge beside seen space [m]
 constexpr float kSeenThrough = 0.003f;     // a place this far behind what is seen is not seen to be free [m]
 
@@ -115,7 +117,7 @@ bool ends_by_occlusion(const ContactInput& in, float side, float end_m, float en
 std::optional<float> turning_reach(float side, float end_m, float at_end, float inner, float middle,
                                    float span) {
   const float turn = at_end - inner;
-  if (turn <= 0.05f) return std::nullopt;
+  if (turn <= kMinTurn || span < kMinTurningSpan) return std::nullopt;
   const float radius = span / (std::cos(middle) * turn);
   if (radius >= kMaxRadius) return std::nullopt;
   return end_m + side * radius * (1 - std::sin(at_end));
