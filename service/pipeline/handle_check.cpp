@@ -334,18 +334,21 @@ Failure Check::check_contacts() {
 
 Failure Check::check_unseen() {
   const Gripper& g = gripper_;
+  const float most_by_others = 0.5f * config_.max_hidden_share;
   float hidden[2];
   for (int side = 0; side < 2; ++side) {
     hidden[side] = finger_hidden_share(side, Hidden::kAtAll);
     handle_.observed_free[static_cast<std::size_t>(side)] = 1 - hidden[side];
-    if (finger_hidden_share(side, Hidden::kByOthers) > 0.5f * config_.max_hidden_share)
-      return Failure::kUnseen;
+    if (finger_hidden_share(side, Hidden::kByOthers) > most_by_others) return Failure::kUnseen;
   }
   if (std::min(hidden[0], hidden[1]) > config_.max_hidden_share) return Failure::kUnseen;
   margins_.seen = 1 - std::max(hidden[0], hidden[1]);
   const float hand = 0.5f * g.aperture_m + g.finger_width_m, palm_top = g.grasp_depth_m - g.finger_length_m;
-  const float palm = hidden_share({-hand, hand, palm_top - config_.palm_depth_m, palm_top}, Hidden::kInView);
-  return palm > config_.max_hidden_share ? Failure::kUnseen : Failure::kNone;
+  const float hand_top = palm_top - config_.palm_depth_m;
+  if (hidden_share({-hand, hand, hand_top, palm_top}, Hidden::kInView) > config_.max_hidden_share)
+    return Failure::kUnseen;
+  const float way = hidden_share({-hand, hand, hand_top - config_.way_m, palm_top}, Hidden::kByOthers);
+  return way > most_by_others ? Failure::kUnseen : Failure::kNone;
 }
 
 CheckResult Check::run(const PatchFit& fit) {

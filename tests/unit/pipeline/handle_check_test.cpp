@@ -115,6 +115,24 @@ TEST(HandleCheck, JawsThatEndShortOfTheWidestPlaceOfARoundThingAreDoubted) {
   EXPECT_GE(grip({0, 0, 0.12f}, -Eigen::Vector3f::UnitZ(), 0.030f), 1) << "around the whole of it";
 }
 
+TEST(HandleCheck, TheHandDoesNotComeThroughWhatOthersHide) {
+  const AnalyticSolid low = standing_box(0, 0, {0.05, 0.12, 0.06});
+  // Hangs between the sensor and where the palm comes down; the box and the fingers are seen below it.
+  const AnalyticSolid curtain = standing_box(0, -0.25, {0.3, 0.02, 0.1});
+  const auto check = [&](double height_m) {
+    AnalyticSolid hung = curtain;
+    hung.T_scene_solid.translation().z() += height_m;
+    const CheckScene scene(on_table({low, hung}));
+    CheckBuffers buffers;
+    return check_candidate(
+               scene.view(), {}, {},
+               scene.candidate({0, 0, 0.06f}, -Eigen::Vector3f::UnitZ(), Eigen::Vector3f::UnitX()), buffers)
+        .failure;
+  };
+  EXPECT_EQ(check(0.37), Failure::kUnseen) << "hides what is 0.16 m above the table, and more";
+  EXPECT_EQ(check(0.45), Failure::kNone);
+}
+
 TEST(HandleCheck, HalfOfAFingerOnTheEndOfABoxIsEnough) {
   const Gripper gripper;
   const CheckScene scene(box_on_table());
