@@ -57,13 +57,16 @@ std::pmr::map<std::uint32_t, std::pmr::vector<std::uint32_t>> components(
   return result;
 }
 
-/// Whether hardly any of the points have neighbours of a surface: they are no part of something else.
+/// Whether hardly any of the points have neighbours of a surface: they are no part of something else. points:
+/// a component, ascending, so that what has a label beside it is of a surface.
 bool stand_alone(const Neighborhoods& neighborhoods, const std::pmr::vector<std::uint32_t>& points,
-                 const std::pmr::vector<std::uint8_t>& is_of_surface) {
+                 const Labels& labels) {
   constexpr float kMostAtSurfaces = 0.2f;
   const auto touches = std::count_if(points.begin(), points.end(), [&](std::uint32_t i) {
     const std::span<const std::uint32_t> near = neighborhoods.of(i);
-    return std::any_of(near.begin(), near.end(), [&](std::uint32_t j) { return is_of_surface[j] != 0; });
+    return std::any_of(near.begin(), near.end(), [&](std::uint32_t j) {
+      return labels.of_point[j] >= 0 && !std::binary_search(points.begin(), points.end(), j);
+    });
   });
   return static_cast<float>(touches) <= kMostAtSurfaces * static_cast<float>(points.size());
 }
@@ -72,14 +75,10 @@ bool stand_alone(const Neighborhoods& neighborhoods, const std::pmr::vector<std:
 
 void label_leftovers(const PointCloud& cloud, const Neighborhoods& neighborhoods,
                      const std::pmr::vector<std::uint8_t>& excluded, float min_points, Labels& labels) {
-  const std::pmr::vector<std::uint32_t> left =
-      find_leftovers(neighborhoods.points(), excluded, min_points, labels);
-  std::pmr::vector<std::uint8_t> is_of_surface(neighborhoods.size());
-  for (const std::uint32_t i : neighborhoods.points()) is_of_surface[i] = labels.of_point[i] >= 0 ? 1 : 0;
-  for (const std::uint32_t i : left) is_of_surface[i] = 0;
-  for (const auto& [first, points] : components(neighborhoods, left)) {
+  for (const auto& [first, points] :
+       components(neighborhoods, find_leftovers(neighborhoods.points(), excluded, min_points, labels))) {
     if (static_cast<float>(points.size()) < min_points) continue;
-    if (!is_long(cloud, points) && !stand_alone(neighborhoods, points, is_of_surface)) continue;
+    if (!is_long(cloud, points) && !stand_alone(neighborhoods, points, labels)) continue;
     for (const std::uint32_t i : points) labels.of_point[i] = labels.num_labels;
     ++labels.num_labels;
   }
