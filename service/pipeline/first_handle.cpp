@@ -76,7 +76,7 @@ Eigen::Vector3f Chooser::preferred_approach() const {
 /// The log odds, and what decides between handles that are about equally good. The weights make the
 /// difference between two ways to take an object larger than what noise does to their scores.
 float Chooser::worth(const FoundHandle& found) const {
-  constexpr float kStraight = 4, kWide = 4, kInDepth = 2;
+  constexpr float kStraight = 2.8f, kWide = 2.8f, kInDepth = 1.4f;
   const Handle& handle = found.ranked.handle;
   return log_odds(handle.score) + kStraight * handle.rotation.col(2).dot(preferred_approach()) -
          kWide * handle.width_m / gripper_.aperture_m -
@@ -144,7 +144,7 @@ Choice Chooser::moved_to_middle(const FoundHandle& found) const {
 /// some chance is: there more is seen of what the jaws meet.
 void choose_about_edges(std::pmr::vector<FoundHandle>& found) {
   constexpr float kNarrow = 0.025f;  // [m]
-  constexpr float kLikely = 0.35f;   // score
+  constexpr float kLikely = 0.61f;   // score
   const auto by_edge = [](const FoundHandle& f) { return f.margins.has_thin_edge(); };
   const auto on_rim = [](const FoundHandle& f) { return f.candidate.is_on_known_wall(); };
   if (std::any_of(found.begin(), found.end(), [&](const auto& f) { return by_edge(f) && on_rim(f); }))

@@ -48,7 +48,7 @@ struct Chosen {
 void choose_places(const std::pmr::vector<RankedHandle>& handles, std::size_t leader,
                    std::pmr::vector<std::size_t> left, const HandleRankingConfig& config,
                    std::pmr::vector<const Handle*>& kept, std::pmr::vector<Chosen>& chosen) {
-  constexpr float kAboveAll = 2, kRefuted = 0.1f;
+  constexpr float kAboveAll = 2, kRefuted = 0.35f;
   std::pmr::vector<const Handle*> own;
   while (!left.empty() && static_cast<int>(own.size()) < config.max_per_object) {
     std::size_t best = 0;

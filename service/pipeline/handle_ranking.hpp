@@ -14,8 +14,8 @@ namespace graspd {
 struct HandleRankingConfig {
   int max_handles = 100;
   int max_per_object = 3;
-  float min_score = 0.15f;
-  float min_further_score = 0.87f;
+  float min_score = 0.42f;
+  float min_further_score = 0.905f;
   float distinct_distance_m = 0.02f;
   float distinct_angle_deg = 30.0f;
   float spread_m = 0.05f;

@@ -14,17 +14,17 @@ float doubt(ContactKind kind) {
     case ContactKind::kWall:
       return 0.0f;
     case ContactKind::kFreeEdge:
-      return 0.6f;
+      return 0.42f;
     case ContactKind::kCurvedEdge:
-      return 0.1f;
+      return 0.07f;
     case ContactKind::kFlatEdge:
-      return 0.3f;
+      return 0.21f;
     case ContactKind::kThinEdge:
-      return 2.0f;
+      return 1.4f;
     case ContactKind::kNone:
-      return 10.0f;
+      return 7.0f;
   }
-  return 10.0f;
+  return 7.0f;
 }
 
 /// And by a margin that is used up.
@@ -35,12 +35,12 @@ float doubt(float margin, float weight) {
 }  // namespace
 
 float score(const HandleMargins& m) {
-  constexpr float kBestLogOdds = 5.0f;
-  const float doubts = doubt(m.contact[0]) + doubt(m.contact[1]) + doubt(m.square, 3.4f) +
-                       doubt(m.area, 2.2f) + doubt(m.walls, 3.4f) + doubt(m.grip, 2.5f) +
-                       doubt(m.seen, 1.6f) + doubt(m.thickness, 1.3f) + doubt(m.silhouettes, 2.3f) +
-                       doubt(m.grip_depth, 0.1f) + doubt(m.central, 0.2f) + doubt(m.width, 0.1f) +
-                       doubt(m.one_face, 3.0f) + doubt(m.steady, 2.0f);
+  constexpr float kBestLogOdds = 4.4f;
+  const float doubts = doubt(m.contact[0]) + doubt(m.contact[1]) + doubt(m.square, 2.4f) +
+                       doubt(m.area, 1.5f) + doubt(m.walls, 2.4f) + doubt(m.grip, 1.75f) +
+                       doubt(m.seen, 1.1f) + doubt(m.thickness, 0.9f) + doubt(m.silhouettes, 1.6f) +
+                       doubt(m.grip_depth, 0.07f) + doubt(m.central, 0.14f) + doubt(m.width, 0.07f) +
+                       doubt(m.one_face, 2.1f) + doubt(m.steady, 1.4f);
   return 1 / (1 + std::exp(doubts - kBestLogOdds));
 }
 

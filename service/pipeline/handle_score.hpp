@@ -33,8 +33,9 @@ struct HandleMargins {
 /// The chance that the handle holds: a logistic function of the contacts and the margins, each of which takes
 /// from the log odds of the best handle there can be. The weights come from a logistic regression over
 /// handles on simulated scenes, for two sensors and several apertures, that were judged on their true solids
-/// (graspd-evaluate --simulate); no real frame took part. Those of thin edges and of the grip,
-/// and the best log odds, were set by hand.
+/// (graspd-evaluate --simulate); no real frame took part. Those of thin edges and of the grip
+/// were set by hand; all were then scaled, and the best log odds set, so that scores are as the shares of
+/// valid handles.
 [[nodiscard]] float score(const HandleMargins& margins);
 
 }  // namespace graspd

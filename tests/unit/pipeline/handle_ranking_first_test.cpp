@@ -61,8 +61,8 @@ TEST(HandleRankingFirst, AnAllButRefutedOneHasNoOthersBesideIt) {
   const auto num_kept = [&config](float first) {
     return rank_handles({handle_at(0, 0.9f), handle_at(0.2f, first, 0, true)}, config).size();
   };
-  EXPECT_EQ(num_kept(0.04f), 1u);
-  EXPECT_EQ(num_kept(0.06f), 2u);
+  EXPECT_EQ(num_kept(0.17f), 1u);
+  EXPECT_EQ(num_kept(0.18f), 2u);
 }
 
 TEST(HandleRankingFirst, BelowTheLeastScoreItDoesNotCount) {
