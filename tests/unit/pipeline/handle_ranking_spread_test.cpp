@@ -32,8 +32,8 @@ RankedHandle handle_at(float x, float score, int object = 0, int id = 0) {
 
 TEST(HandleRankingSpread, PlacesSpreadOverALongObject) {
   std::pmr::vector<RankedHandle> handles;
-  for (int i = 0; i <= 60; ++i) handles.push_back(handle_at(0.005f * static_cast<float>(i), 0.9f));
-  const HandleRankingConfig config = lenient();
+  for (int i = 0; i <= 60; ++i) handles.push_back(handle_at(0.005f * static_cast<float>(i), 0.95f));
+  const HandleRankingConfig config;
   const std::pmr::vector<Handle> ranked = rank_handles(handles, config);
   ASSERT_EQ(static_cast<int>(ranked.size()), config.max_per_object);
   for (std::size_t a = 0; a < ranked.size(); ++a)
