@@ -237,6 +237,11 @@ bool is_thin_edge(const ContactInput& in, float side, float end_m) {
 
 }  // namespace
 
+float circle_tolerance(const SceneView& scene) {
+  constexpr float kLeast = 0.0015f, kMost = 0.0035f, kSigmas = 2;  // [m]
+  return scene.support ? std::min(kMost, kLeast + kSigmas * scene.support->sigma_m) : kMost;
+}
+
 Contact find_contact(const ContactInput& in, float side, float end_m, float hidden_share) {
   const EndPoints end = collect_end(in, side, end_m, hidden_share <= kSeenFree ? 0.5f : 0.7f);
   if (end.near < 2) return {ContactKind::kNone, end_m, {}};

@@ -52,6 +52,10 @@ struct Contact {
 /// Of circles that a profile may be part of; larger ones count as flat [m].
 inline constexpr float kMaxRadius = 0.06f;
 
+/// How far from a circle points of a round profile may be, by the sensor's scatter [m]: the closer, the
+/// better an edge with two of its faces is told from one.
+[[nodiscard]] float circle_tolerance(const SceneView& scene);
+
 /// Whether what reaches so deep between the jaws can be a plate met at its edge: of a rod there is no more of
 /// it than it is wide.
 [[nodiscard]] inline bool is_plate(float width_m, float depth_m) {

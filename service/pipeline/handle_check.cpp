@@ -273,13 +273,6 @@ bool Check::check_square(const Contact& low, const Contact& high, bool round) {
   return off <= radians(most_off);
 }
 
-/// How far from a circle points of a round profile may be, by the sensor's scatter: the closer, the better an
-/// edge with two of its faces is told from one.
-float circle_tolerance(const SceneView& scene) {
-  constexpr float kLeast = 0.0015f, kMost = 0.0035f, kSigmas = 2;  // [m]
-  return scene.support ? std::min(kMost, kLeast + kSigmas * scene.support->sigma_m) : kMost;
-}
-
 /// How far the walls on both sides are from the angle at which jaws with a friction coefficient of 0.5 slip
 /// off. Of a round profile the fitted circle tells better where its widest place is.
 float grip_margin(const Contact& low, const Contact& high) {

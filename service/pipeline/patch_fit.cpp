@@ -228,10 +228,11 @@ Failure fit_patch(const SceneView& scene, const Gripper& gripper, const HandleCh
   const float reach = profile_reach(scene, g);
   const BandTags tags = band_tags(scene, candidate, reach);
   // As far up as the fingers reach when they go in the least deep; and further, as most tops are there.
-  const Eigen::Vector3f approach = candidate.rotation.col(2);
-  const float above = g.finger_length_m - least_grip_depth(scene, config, candidate.position, approach) +
-                      kTopWindow,
-              further = g.finger_length_m;
+  const auto least_depth = [&](float top_m) {
+    const Eigen::Vector3f approach = candidate.rotation.col(2);
+    return least_grip_depth(scene, config, candidate.position + top_m * approach, approach);
+  };
+  const float above = g.finger_length_m - least_depth(0) + kTopWindow, further = g.finger_length_m;
   const float below = g.grasp_depth_m + kBelowTips + kLower;
   float gathered_m = std::numeric_limits<float>::infinity();
   const auto look_at = [&](float z) {
@@ -252,10 +253,7 @@ Failure fit_patch(const SceneView& scene, const Gripper& gripper, const HandleCh
     return failure != Failure::kNone ? failure : settle_top(search, buffers, look_at, fit);
   };
   // What the fingertips may be less deep by.
-  const auto room_below = [&](float top_m) {
-    return g.grasp_depth_m - least_grip_depth(scene, config, candidate.position + top_m * approach, approach);
-  };
-  float room = room_below(fit.top_m);
+  float room = g.grasp_depth_m - least_depth(fit.top_m);
   float raise = std::min(room, std::max(0.0f, g.grasp_depth_m - candidate.depth_m));
   Failure failure = fit_to(g.grasp_depth_m - raise);
   if (failure == Failure::kNoGap && fit.width_m <= g.aperture_m) {
@@ -265,7 +263,7 @@ Failure fit_patch(const SceneView& scene, const Gripper& gripper, const HandleCh
     failure = fit_to(g.grasp_depth_m - raise);
   }
   if (failure != Failure::kNone) return failure;
-  room = room_below(fit.top_m) - raise;
+  room = g.grasp_depth_m - least_depth(fit.top_m) - raise;
   fit.top_m -= raise;
   raise = raise_for_obstacles(scene, g, config, candidate, buffers, fit);
   if (raise > room) return Failure::kFingers;
