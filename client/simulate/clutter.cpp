@@ -12,27 +12,26 @@ namespace graspd {
 namespace {
 
 using Eigen::Vector3d;
-using Maker = ObjectModel (*)(Rng&);
 
 ObjectModel make_single(Rng& rng) {
-  constexpr std::array<Maker, 20> kMakers{
+  constexpr std::array<ObjectMaker, 20> kMakers{
       make_box, make_box,  make_box,  make_box,          make_small_block, make_can,          make_can,
       make_cup, make_jar,  make_jar,  make_lying_can,    make_lying_can,   make_bottle,       make_bottle,
       make_mug, make_bowl, make_book, make_lying_bottle, make_pen,         make_standing_book};
-  return kMakers[static_cast<std::size_t>(rng.index(static_cast<int>(kMakers.size())))](rng);
+  return rng.pick(kMakers)(rng);
 }
 
 /// Small things that come to lie on others.
 ObjectModel make_droppable(Rng& rng) {
-  constexpr std::array<Maker, 6> kMakers{make_box,       make_pen, make_small_block,
-                                         make_lying_can, make_jar, make_lying_bottle};
-  return kMakers[static_cast<std::size_t>(rng.index(static_cast<int>(kMakers.size())))](rng);
+  constexpr std::array<ObjectMaker, 6> kMakers{make_box,       make_pen, make_small_block,
+                                               make_lying_can, make_jar, make_lying_bottle};
+  return rng.pick(kMakers)(rng);
 }
 
 std::vector<ObjectModel> make_group(Rng& rng) {
   constexpr std::array<std::vector<ObjectModel> (*)(Rng&), 4> kMakers{make_book_row, make_book_row,
                                                                       make_box_row, make_book_pile};
-  return kMakers[static_cast<std::size_t>(rng.index(static_cast<int>(kMakers.size())))](rng);
+  return rng.pick(kMakers)(rng);
 }
 
 /// A tilt about a level axis and a turn about the vertical one, somewhere above everything.

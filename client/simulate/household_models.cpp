@@ -26,12 +26,6 @@ void add_arc(ObjectModel& model, double arc_radius, double from, double to, doub
   for (int i = 0; i < kPieces; ++i) model.solid.parts.emplace_back(Capsule{at(i), at(i + 1), thickness});
 }
 
-/// Lays an object that was made along z on its side, its axis along the world's x and at a height.
-void lay_down(ObjectModel& model, double middle, double height) {
-  model.solid.T_world_solid.linear() << 0, 0, 1, 1, 0, 0, 0, 1, 0;
-  model.solid.T_world_solid.translation() = Vector3d(-middle, 0, height);
-}
-
 }  // namespace
 
 ObjectModel make_screwdriver(Rng& rng) {
@@ -124,10 +118,9 @@ ObjectModel make_dumbbell(Rng& rng) {
 }
 
 ObjectModel make_household_object(Rng& rng) {
-  using Maker = ObjectModel (*)(Rng&);
-  constexpr std::array<Maker, 8> kMakers{make_screwdriver, make_hammer,  make_banana, make_goblet,
-                                         make_pan,         make_bracket, make_ring,   make_dumbbell};
-  return kMakers[static_cast<std::size_t>(rng.index(static_cast<int>(kMakers.size())))](rng);
+  constexpr std::array<ObjectMaker, 8> kMakers{make_screwdriver, make_hammer,  make_banana, make_goblet,
+                                               make_pan,         make_bracket, make_ring,   make_dumbbell};
+  return rng.pick(kMakers)(rng);
 }
 
 }  // namespace graspd

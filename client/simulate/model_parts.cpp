@@ -13,7 +13,7 @@ std::uint32_t random_color(Rng& rng) {
   constexpr std::array<std::uint32_t, 14> kPaints{0xc0392b, 0xe67e22, 0xf1c40f, 0x27ae60, 0x16a085,
                                                   0x2980b9, 0x8e44ad, 0x34495e, 0xecf0f1, 0xd35400,
                                                   0x7f8c8d, 0xb9770e, 0x5dade2, 0xf5b7b1};
-  return kPaints[static_cast<std::size_t>(rng.index(static_cast<int>(kPaints.size())))];
+  return rng.pick(kPaints);
 }
 
 }  // namespace
@@ -39,6 +39,11 @@ Footprint rectangle(const Vector2d& center, const Vector2d& half, double height)
   f.half = half;
   f.z_max = height;
   return f;
+}
+
+void lay_down(ObjectModel& model, double middle, double height) {
+  model.solid.T_world_solid.linear() << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+  model.solid.T_world_solid.translation() = Eigen::Vector3d(-middle, 0, height);
 }
 
 }  // namespace graspd

@@ -13,4 +13,8 @@ namespace graspd {
 [[nodiscard]] Footprint circle(double radius, double height);
 [[nodiscard]] Footprint rectangle(const Eigen::Vector2d& center, const Eigen::Vector2d& half, double height);
 
+/// Lays an object that was made along z on its side: its axis along the world's x and at a height, what was
+/// at z = middle over the origin [m].
+void lay_down(ObjectModel& model, double middle, double height);
+
 }  // namespace graspd

@@ -74,9 +74,7 @@ ObjectModel make_lying_can(Rng& rng) {
   const double radius = rng.uniform(0.018, 0.038);
   const double length = rng.uniform(2.5, 6.0) * radius;
   ObjectModel model = with_part("lying_can", rng, Cylinder{radius, -length / 2, length / 2});
-  // Its axis along the world's x.
-  model.solid.T_world_solid.linear() << 0, 0, 1, 1, 0, 0, 0, 1, 0;
-  model.solid.T_world_solid.translation() = Vector3d(0, 0, radius);
+  lay_down(model, 0, radius);
   model.footprints.push_back(rectangle(Vector2d::Zero(), {length / 2, radius}, 2 * radius));
   return model;
 }
@@ -142,9 +140,7 @@ ObjectModel make_lying_bottle(Rng& rng) {
   model.solid.kind = "lying_bottle";
   const Footprint standing = model.footprints.front();
   const double middle = standing.z_max / 2;
-  // Its axis along the world's x, neck first.
-  model.solid.T_world_solid.linear() << 0, 0, 1, 1, 0, 0, 0, 1, 0;
-  model.solid.T_world_solid.translation() = Vector3d(-middle, 0, standing.radius);
+  lay_down(model, middle, standing.radius);
   model.footprints = {rectangle(Vector2d::Zero(), {middle, standing.radius}, 2 * standing.radius)};
   return model;
 }
@@ -153,8 +149,7 @@ ObjectModel make_pen(Rng& rng) {
   const double radius = rng.uniform(0.005, 0.009);
   const double length = rng.uniform(0.11, 0.17);
   ObjectModel model = with_part("pen", rng, Cylinder{radius, -length / 2, length / 2});
-  model.solid.T_world_solid.linear() << 0, 0, 1, 1, 0, 0, 0, 1, 0;
-  model.solid.T_world_solid.translation() = Vector3d(0, 0, radius);
+  lay_down(model, 0, radius);
   model.footprints.push_back(rectangle(Vector2d::Zero(), {length / 2, radius}, 2 * radius));
   return model;
 }
@@ -171,11 +166,10 @@ ObjectModel make_standing_book(Rng& rng) {
 }
 
 ObjectModel make_random_object(Rng& rng) {
-  using Maker = ObjectModel (*)(Rng&);
-  constexpr std::array<Maker, 12> kMakers{make_box,  make_box,       make_box,    make_can,
-                                          make_can,  make_lying_can, make_bottle, make_ball,
-                                          make_bowl, make_mug,       make_mug,    make_book};
-  return kMakers[static_cast<std::size_t>(rng.index(static_cast<int>(kMakers.size())))](rng);
+  constexpr std::array<ObjectMaker, 12> kMakers{make_box,  make_box,       make_box,    make_can,
+                                                make_can,  make_lying_can, make_bottle, make_ball,
+                                                make_bowl, make_mug,       make_mug,    make_book};
+  return rng.pick(kMakers)(rng);
 }
 
 }  // namespace graspd

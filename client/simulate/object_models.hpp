@@ -21,6 +21,8 @@ struct ObjectModel {
   Eigen::Vector2d top_center = Eigen::Vector2d::Zero();
 };
 
+using ObjectMaker = ObjectModel (*)(Rng&);
+
 [[nodiscard]] ObjectModel make_box(Rng& rng);
 [[nodiscard]] ObjectModel make_book(Rng& rng);
 [[nodiscard]] ObjectModel make_can(Rng& rng);

@@ -66,8 +66,7 @@ std::optional<Place> pushed(const Ground& ground, const ObjectModel& model, Plac
 
 /// On a flat top that carries all of the object.
 std::optional<Place> stacked(const Ground& ground, const ObjectModel& model, Rng& rng) {
-  const auto& below =
-      ground.placed[static_cast<std::size_t>(rng.index(static_cast<int>(ground.placed.size())))];
+  const auto& below = rng.pick(ground.placed);
   if (!below.top) return std::nullopt;
   double reach = 0;
   for (const Footprint& f : model.footprints) reach = std::max(reach, f.center.norm() + f.reach());

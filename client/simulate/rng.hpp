@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Random numbers that are the same on every machine and with every standard library.
 #pragma once
+#include <cstddef>
 #include <cstdint>
 
 namespace graspd {
@@ -31,6 +32,12 @@ class Rng {
 
   /// In [0, n), n > 0.
   constexpr int index(int n) { return static_cast<int>(uniform() * n); }
+
+  /// One of a range that is not empty.
+  template <class Range>
+  constexpr const auto& pick(const Range& range) {
+    return range[static_cast<std::size_t>(index(static_cast<int>(range.size())))];
+  }
 
   /// Nearly normal with mean 0 and deviation 1, within +-3.46: the sum of four 16-bit uniforms. No logarithm,
   /// so that no mathematical library has a say in the bits.

@@ -71,7 +71,7 @@ void add_bin(Scene& scene, Ground& ground) {
 }
 
 /// Nothing leans, and nothing lies on something else.
-void add_loose_objects(ObjectModel (*make)(Rng&), int num_objects, Scene& scene, Ground& ground, Rng& rng) {
+void add_loose_objects(ObjectMaker make, int num_objects, Scene& scene, Ground& ground, Rng& rng) {
   for (int i = 0; i < num_objects; ++i) {
     ObjectModel model = make(rng);
     if (const auto place = find_place({}, ground, model, rng)) put(scene, ground, std::move(model), *place);

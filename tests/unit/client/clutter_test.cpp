@@ -76,14 +76,26 @@ TEST(Clutter, GrowsWithTheLevel) {
   }
 }
 
-TEST(Clutter, TheExtremeBinHasThePapersThings) {
+/// How many there are of each kind in the scenes of the first seeds.
+std::map<std::string, int> count_kinds(SceneKind scene, std::uint64_t num_seeds) {
   std::map<std::string, int> kinds;
-  for (std::uint64_t seed = 0; seed < 30; ++seed)
-    for (const Solid& solid : build_scene({SceneKind::kExtreme, {}}, seed).solids) ++kinds[solid.kind];
+  for (std::uint64_t seed = 0; seed < num_seeds; ++seed)
+    for (const Solid& solid : build_scene({scene, {}}, seed).solids) ++kinds[solid.kind];
+  return kinds;
+}
+
+TEST(Clutter, TheExtremeBinHasThePapersThings) {
+  std::map<std::string, int> kinds = count_kinds(SceneKind::kExtreme, 30);
   for (const char* kind : {"standing_book", "leaning_book", "book", "box", "bottle", "lying_bottle", "can",
                            "lying_can", "cup", "mug", "bowl", "jar", "pen", "small_block"})
     EXPECT_GT(kinds[kind], 0) << kind;
   EXPECT_GT(kinds["standing_book"], 60);
+}
+
+TEST(Clutter, AHouseholdHasThingsOfAllItsKinds) {
+  std::map<std::string, int> kinds = count_kinds(SceneKind::kHousehold, 20);
+  for (const char* kind : {"screwdriver", "hammer", "banana", "goblet", "pan", "bracket", "ring", "dumbbell"})
+    EXPECT_GT(kinds[kind], 0) << kind;
 }
 
 TEST(ObjectGroups, BooksOfARowTouchAndTheLastOneLeans) {

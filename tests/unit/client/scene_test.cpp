@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "client/simulate/household_models.hpp"
 #include "client/simulate/object_models.hpp"
 #include "client/simulate/rng.hpp"
 #include "client/simulate/scene_builder.hpp"
@@ -58,16 +59,17 @@ TEST(Scene, TheMugsHandleHasAHole) {
 }
 
 TEST(Scene, ObjectsRestOnTheGroundWithinTheirFootprints) {
-  using Maker = ObjectModel (*)(Rng&);
-  const std::vector<Maker> makers{make_box,    make_book, make_can,  make_lying_can,
-                                  make_bottle, make_ball, make_bowl, make_mug};
+  const std::vector<ObjectMaker> makers{make_box,         make_book,    make_can,    make_lying_can,
+                                        make_bottle,      make_ball,    make_bowl,   make_mug,
+                                        make_screwdriver, make_hammer,  make_banana, make_goblet,
+                                        make_pan,         make_bracket, make_ring,   make_dumbbell};
   Rng rng(9);
-  for (const Maker make : makers) {
+  for (const ObjectMaker make : makers) {
     for (int i = 0; i < 20; ++i) {
       const ObjectModel model = make(rng);
       double lowest = 1;
-      for (int k = 0; k < 4000; ++k) {
-        const Vector3d p(rng.uniform(-0.15, 0.15), rng.uniform(-0.15, 0.15), rng.uniform(-0.05, 0.3));
+      for (int k = 0; k < 16000; ++k) {
+        const Vector3d p(rng.uniform(-0.3, 0.3), rng.uniform(-0.3, 0.3), rng.uniform(-0.05, 0.3));
         if (signed_distance(model.solid, p) >= 0) continue;
         lowest = std::min(lowest, p.z());
         const auto covers = [&](const Footprint& f) {
