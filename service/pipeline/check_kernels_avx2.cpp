@@ -109,7 +109,7 @@ GRASPD_AVX2 CircleSums sum_circle(const CircleWeights& weights, const float* xs,
 }
 
 GRASPD_AVX2 ProfileSums sum_profile(const ProfileWeights& weights, const FacePoints& face) {
-  __m256 c[4], sum[13];
+  __m256 c[4], sum[14];
   for (int k = 0; k < 4; ++k) c[k] = _mm256_set1_ps(weights.c[k]);
   for (__m256& v : sum) v = _mm256_setzero_ps();
   const __m256 per_scale = _mm256_set1_ps(weights.per_scale), one = _mm256_set1_ps(1);
@@ -122,10 +122,11 @@ GRASPD_AVX2 ProfileSums sum_profile(const ProfileWeights& weights, const FacePoi
     const __m256 line = _mm256_add_ps(c[0], _mm256_mul_ps(c[1], s)),
                  rest = _mm256_add_ps(_mm256_mul_ps(c[2], ss), _mm256_mul_ps(c[3], a));
     const __m256 e = _mm256_mul_ps(_mm256_sub_ps(_mm256_add_ps(line, rest), z), per_scale);
-    const __m256 w = _mm256_and_ps(valid, _mm256_div_ps(one, _mm256_add_ps(one, _mm256_mul_ps(e, e))));
+    const __m256 ee = _mm256_mul_ps(e, e);
+    const __m256 w = _mm256_and_ps(valid, _mm256_div_ps(one, _mm256_add_ps(one, ee)));
     const __m256 ws = _mm256_mul_ps(w, s), wss = _mm256_mul_ps(w, ss), wa = _mm256_mul_ps(w, a),
                  wz = _mm256_mul_ps(w, z);
-    const __m256 terms[13] = {w,
+    const __m256 terms[14] = {w,
                               ws,
                               wss,
                               _mm256_mul_ps(wss, s),
@@ -137,13 +138,14 @@ GRASPD_AVX2 ProfileSums sum_profile(const ProfileWeights& weights, const FacePoi
                               wz,
                               _mm256_mul_ps(wz, s),
                               _mm256_mul_ps(wz, ss),
-                              _mm256_mul_ps(wz, a)};
-    for (int k = 0; k < 13; ++k) sum[k] = _mm256_add_ps(sum[k], terms[k]);
+                              _mm256_mul_ps(wz, a),
+                              _mm256_mul_ps(w, ee)};
+    for (int k = 0; k < 14; ++k) sum[k] = _mm256_add_ps(sum[k], terms[k]);
   }
-  float total[13];
-  for (int k = 0; k < 13; ++k) total[k] = sum_in_order(sum[k]);
-  return {total[0], total[1], total[2], total[3],  total[4],  total[5], total[6],
-          total[7], total[8], total[9], total[10], total[11], total[12]};
+  float total[14];
+  for (int k = 0; k < 14; ++k) total[k] = sum_in_order(sum[k]);
+  return {total[0], total[1], total[2], total[3],  total[4],  total[5],  total[6],
+          total[7], total[8], total[9], total[10], total[11], total[12], total[13]};
 }
 
 GRASPD_AVX2 void find_hiders(const ViewImage& image, const Probes& places, float margin_m,

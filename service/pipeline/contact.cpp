@@ -219,6 +219,7 @@ bool is_seen_through(const ContactInput& in, float side, float end_m) {
 /// sight, and what is seen of its edge is too narrow for a face of its own.
 bool is_thin_edge(const ContactInput& in, float side, float end_m) {
   constexpr float kThin = 0.012f, kEdgeDepth = 0.006f;
+  if (!is_plate(in.extent_m, in.depth_m - in.top_m)) return false;
   int near = 0, high = 0;
   float low = end_m, far = end_m;
   for (const std::uint32_t k : in.between) {
@@ -231,7 +232,6 @@ bool is_thin_edge(const ContactInput& in, float side, float end_m) {
     ++near;
     high += is_high ? 1 : 0;
   }
-  if (!is_plate(in.extent_m, in.depth_m - in.top_m)) return false;
   return far - low <= kThin && 2 * high >= near && is_seen_through(in, side, end_m);
 }
 

@@ -79,11 +79,13 @@ std::pair<std::uint32_t, std::uint32_t> column_range(const ImagePixels& pixels) 
 
 DepthMap::DepthMap(const PointCloud& cloud, const ImagePixels& pixels)
     : viewpoint_(cloud.viewpoint), to_view_(Eigen::Matrix3f::Identity()) {
-  if (cloud.empty()) return;
-  if (const auto camera = fit_pinhole(cloud, pixels))
-    take_image(cloud, pixels, *camera);
-  else
-    render(cloud);
+  if (!cloud.empty()) {
+    if (const auto camera = fit_pinhole(cloud, pixels))
+      take_image(cloud, pixels, *camera);
+    else
+      render(cloud);
+  }
+  view_ = view();
 }
 
 /// Rows before the first point's and after the last one's are left out: nothing is seen there.
@@ -268,7 +270,7 @@ std::int32_t DepthMap::hider(const Eigen::Vector3f& p, float margin_m) const {
 void DepthMap::find_hiders(const Probes& places, float margin_m, std::int32_t (&hiders)[kProbes]) const {
   std::fill_n(hiders, kProbes, kFree);
   if (depth_.empty()) return;
-  point_kernels().find_hiders(view(), places, margin_m, hiders);
+  point_kernels().find_hiders(view_, places, margin_m, hiders);
 }
 
 }  // namespace graspd

@@ -16,6 +16,8 @@ class DepthMap {
  public:
   /// All points must be finite. pixels: of the cloud's points, where it is part of an image.
   explicit DepthMap(const PointCloud& cloud, const ImagePixels& pixels = {});
+  DepthMap(const DepthMap&) = delete;
+  DepthMap& operator=(const DepthMap&) = delete;
 
   static constexpr std::int32_t kFree = -1, kOutOfView = -2;
   /// What is nearer to the sensor by this much hides a place from it [m]; less is the surface there itself.
@@ -53,6 +55,7 @@ class DepthMap {
   RawVector<float> depth_;         // 0: nothing seen
   RawVector<std::int32_t> point_;  // that the depth is of
   std::int32_t beside_ = kFree, above_ = kFree, below_ = kFree;
+  ViewImage view_;  // of all of this, for those who ask
 };
 
 }  // namespace graspd

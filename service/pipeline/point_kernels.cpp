@@ -173,20 +173,20 @@ CircleSums sum_circle(const CircleWeights& weights, const float* xs, const float
 
 ProfileSums sum_profile(const ProfileWeights& weights, const FacePoints& face) {
   const float* c = weights.c;
-  float parts[13][8] = {};
+  float parts[14][8] = {};
   for (std::size_t i = 0; i < face.size; ++i) {
     const float s = face.s[i], a = face.a[i], z = face.z[i], ss = s * s;
     const float e = (c[0] + c[1] * s + (c[2] * ss + c[3] * a) - z) * weights.per_scale;
     const float w = 1 / (1 + e * e), ws = w * s, wss = w * ss, wa = w * a, wz = w * z;
-    const float terms[13] = {w,       ws,     wss, wss * s, wss * ss, wa,    wa * s,
-                             wa * ss, wa * a, wz,  wz * s,  wz * ss,  wz * a};
-    for (int k = 0; k < 13; ++k) parts[k][i % 8] += terms[k];
+    const float terms[14] = {w,       ws,     wss, wss * s, wss * ss, wa,     wa * s,
+                             wa * ss, wa * a, wz,  wz * s,  wz * ss,  wz * a, w * (e * e)};
+    for (int k = 0; k < 14; ++k) parts[k][i % 8] += terms[k];
   }
-  float sum[13] = {};
-  for (int k = 0; k < 13; ++k)
+  float sum[14] = {};
+  for (int k = 0; k < 14; ++k)
     for (const float part : parts[k]) sum[k] += part;
-  return {sum[0], sum[1], sum[2], sum[3],  sum[4],  sum[5], sum[6],
-          sum[7], sum[8], sum[9], sum[10], sum[11], sum[12]};
+  return {sum[0], sum[1], sum[2], sum[3],  sum[4],  sum[5],  sum[6],
+          sum[7], sum[8], sum[9], sum[10], sum[11], sum[12], sum[13]};
 }
 
 void find_hiders(const ViewImage& image, const Probes& places, float margin_m,

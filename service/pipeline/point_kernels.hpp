@@ -241,9 +241,9 @@ struct ProfileWeights {
   float per_scale;  ///< 1 / scale; 0: all weights are 1
 };
 
-/// Weighted sums over them.
+/// Weighted sums over them; ee: of e^2.
 struct ProfileSums {
-  float n, s, ss, sss, ssss, a, as, ass, aa, z, zs, zss, za;
+  float n, s, ss, sss, ssss, a, as, ass, aa, z, zs, zss, za, ee;
 };
 
 struct PointKernels {

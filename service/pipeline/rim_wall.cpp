@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "service/pipeline/normal_lines.hpp"
+#include "service/pipeline/point_kernels.hpp"
+#include "service/pipeline/raw_vector.hpp"
 
 namespace graspd {
 namespace {
@@ -24,6 +26,8 @@ constexpr float kMinRoundFacing = 0.5f;
 constexpr float kMinSector = 0.2f;  // cosine of the angle about the axis
 constexpr float kBetween = 0.2f;    // of kDeep: about where jaws meet the wall
 constexpr float kScale = 0.003f;    // of the weights [m]
+constexpr float kRidge = 1e-4f;     // on the scaled normal equations
+constexpr int kRounds = 3;          // of weighing points anew
 constexpr std::size_t kMinPoints = 8;
 
 /// A point of the wall: how far out it is, and what the surface there is a sum of.
@@ -43,8 +47,6 @@ struct Fit {
 /// Least squares, reweighted by Cauchy weights.
 template <int n>
 Fit<n> fit_samples(const std::pmr::vector<Sample<n>>& samples) {
-  constexpr int kRounds = 3;
-  constexpr float kRidge = 1e-4f;  // on the scaled normal equations
   Eigen::Matrix<float, n, 1> c = Eigen::Matrix<float, n, 1>::Zero();
   Eigen::Matrix<float, n, n> A;
   float variance = 0;
@@ -66,15 +68,42 @@ Fit<n> fit_samples(const std::pmr::vector<Sample<n>>& samples) {
   return {c, variance * A.inverse(), variance};
 }
 
-/// A wall's profile, straight unless a curve fits it clearly better: one through the noise on a straight wall
-/// is easily 10 degrees off at its end.
-Fit<3> fit_profile(const std::pmr::vector<Sample<3>>& samples) {
+/// How far out a wall is at depths below its rim.
+struct Profile {
+  RawVector<float> down, out;
+  std::size_t size = 0;
+
+  explicit Profile(std::size_t most) : down(most + kPointPadding), out(most + kPointPadding) {}
+  void add(float down_there, float out_there) {
+    down[size] = down_there;
+    out[size++] = out_there;
+  }
+};
+
+/// A polynomial with n coefficients through it, as fit_samples() does it.
+template <int n>
+Fit<n> fit_polynomial(const Profile& profile) {
+  const FacePoints points{profile.down.data(), profile.down.data(), profile.out.data(), profile.size};
+  Eigen::Vector3f c = Eigen::Vector3f::Zero();
+  Eigen::Matrix<float, n, n> A;
+  float variance = 0;
+  for (int round = 0; round < kRounds; ++round) {
+    const ProfileSums s =
+        point_kernels().sum_profile({{c[0], c[1], c[2], 0}, round == 0 ? 0 : 1 / kScale}, points);
+    const Eigen::Matrix3f powers{{s.n, s.s, s.ss}, {s.s, s.ss, s.sss}, {s.ss, s.sss, s.ssss}};
+    A = powers.topLeftCorner<n, n>() + kRidge * Eigen::Matrix<float, n, n>::Identity();
+    c.head<n>() = A.ldlt().solve(Eigen::Vector3f(s.z, s.zs, s.zss).head<n>());
+    variance = kScale * kScale * s.ee / s.n;
+  }
+  return {c.head<n>(), variance * A.inverse(), variance};
+}
+
+/// Straight unless a curve fits it clearly better: one through the noise on a straight wall is easily 10
+/// degrees off at its end.
+Fit<3> fit_profile(const Profile& profile) {
   constexpr float kClearly = 1.08f;  // of the variances
-  std::pmr::vector<Sample<2>> straight_samples;
-  straight_samples.reserve(samples.size());
-  for (const Sample<3>& s : samples) straight_samples.push_back({s.row.head<2>(), s.out});
-  const Fit<2> straight = fit_samples(straight_samples);
-  Fit<3> curved = fit_samples(samples);
+  const Fit<2> straight = fit_polynomial<2>(profile);
+  const Fit<3> curved = fit_polynomial<3>(profile);
   if (straight.variance > kClearly * curved.variance) return curved;
   Fit<3> fit{{straight.c[0], straight.c[1], 0}, Eigen::Matrix3f::Zero(), straight.variance};
   fit.covariance.topLeftCorner<2, 2>() = straight.covariance;
@@ -138,19 +167,19 @@ std::optional<RimWall> RimWall::fit_round(const SearchInput& in, std::span<const
   wall.out_ = side / radius * from_axis;
   wall.up_ = axis.up;
   wall.along_ = wall.out_.cross(wall.up_);
-  std::pmr::vector<Sample<3>> samples;
+  Profile profile(near.size());
   for (const std::uint32_t i : near) {
     const float below = axis.up.dot(rim.p - in.cloud.point(i));
     if (below < kEdge || below > kDeep) continue;
     const Eigen::Vector3f there = off_axis(in.cloud.point(i));
-    const float r = there.norm(), z = below / kDeep;
+    const float r = there.norm();
     if (std::abs(r - radius) > kMaxAcross || side * there.dot(wall.out_) < kMinSector * r ||
         side * there.dot(in.normals.at(i)) < kMinRoundFacing * r)
       continue;
-    samples.push_back({{1, z, z * z}, side * (r - radius)});
+    profile.add(below / kDeep, side * (r - radius));
   }
-  if (samples.size() < kMinPoints) return std::nullopt;
-  const Fit<3> fit = fit_profile(samples);
+  if (profile.size < kMinPoints) return std::nullopt;
+  const Fit<3> fit = fit_profile(profile);
   wall.slopes_.y() = fit.c[1] / kDeep;
   wall.changes_.y() = 2 * fit.c[2] / (kDeep * kDeep);
   wall.error_rad_ = standard_error<3>(fit, {0, 1, 2 * kBetween}) / kDeep;

@@ -58,7 +58,7 @@ TEST(CheckKernels, SumOverPointsWeighedByAProfile) {
     const FacePoints face{points.x.data(), points.y.data(), points.z.data(), num};
     for (const ProfileWeights& weights :
          {ProfileWeights{{0, 0, 0, 0}, 0}, ProfileWeights{{0.1f, -0.2f, 0.5f, 0.3f}, 4}}) {
-      double n = 0, ssss = 0, ass = 0, zs = 0, za = 0;
+      double n = 0, ssss = 0, ass = 0, zs = 0, za = 0, ee = 0;
       for (std::size_t k = 0; k < num; ++k) {
         const double s = double{points.x[k]}, a = double{points.y[k]}, z = double{points.z[k]};
         const float* c = weights.c;
@@ -70,6 +70,7 @@ TEST(CheckKernels, SumOverPointsWeighedByAProfile) {
         ass += w * a * s * s;
         zs += w * z * s;
         za += w * z * a;
+        ee += w * e * e;
       }
       const ProfileSums expected = portable_kernels().sum_profile(weights, face);
       EXPECT_NEAR(double{expected.n}, n, 1e-4);
@@ -77,10 +78,12 @@ TEST(CheckKernels, SumOverPointsWeighedByAProfile) {
       EXPECT_NEAR(double{expected.ass}, ass, 1e-4);
       EXPECT_NEAR(double{expected.zs}, zs, 1e-4);
       EXPECT_NEAR(double{expected.za}, za, 1e-4);
+      EXPECT_NEAR(double{expected.ee}, ee, 1e-4);
       for (const Form& form : forms()) {
         const ProfileSums sums = form.kernels->sum_profile(weights, face);
         const auto all = [](const ProfileSums& p) {
-          return std::array{p.n, p.s, p.ss, p.sss, p.ssss, p.a, p.as, p.ass, p.aa, p.z, p.zs, p.zss, p.za};
+          return std::array{p.n,   p.s,  p.ss, p.sss, p.ssss, p.a,  p.as,
+                            p.ass, p.aa, p.z,  p.zs,  p.zss,  p.za, p.ee};
         };
         EXPECT_EQ(all(sums), all(expected)) << form.name << " " << num;
       }

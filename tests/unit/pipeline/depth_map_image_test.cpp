@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "service/pipeline/depth_map.hpp"
 #include "service/pipeline/workspace_filter.hpp"
@@ -204,8 +205,10 @@ TEST(DepthMapImage, BeyondItsBordersNothingIsSeen) {
       for (std::size_t u = 0; u < 101; ++u)
         if (u < columns || v < rows) make_missing(part, v * 101 + u);
     const WorkspaceResult kept = filter_workspace(part, {});
-    const DepthMap map(kept.cloud, kept.pixels);
-    return [map](float x, float y, float depth) { return map.hider({depth * x, depth * y, depth}, kMargin); };
+    const auto map = std::make_shared<const DepthMap>(kept.cloud, kept.pixels);
+    return [map](float x, float y, float depth) {
+      return map->hider({depth * x, depth * y, depth}, kMargin);
+    };
   };
   const auto whole = hiders_with_band(0, 0), narrow = hiders_with_band(4, 3), wide = hiders_with_band(20, 15);
   for (const float depth : {0.5f, 1.5f}) {
