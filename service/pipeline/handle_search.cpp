@@ -74,11 +74,11 @@ Eigen::Vector3f rectangle_axis(const PointCloud& cloud, const Segment& segment) 
 }
 
 /// Mean normal of the object's voxels near a seed.
-Eigen::Vector3f face_normal(const Normals& normals, NearPoints& object, const Eigen::Vector3f& p,
-                            const Eigen::Vector3f& n) {
+Eigen::Vector3f face_normal(const Normals& normals, const NearPoints& object, const Eigen::Vector3f& p,
+                            const Eigen::Vector3f& n, NearPoints::Buffer& buffer) {
   constexpr float kRadius = 0.015f;
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-  for (const std::uint32_t i : object.within(p, kRadius))
+  for (const std::uint32_t i : object.within(p, kRadius, buffer))
     if (normals.at(i).dot(n) > 0.8f) sum += normals.at(i);
   return sum.norm() > 1e-3f ? sum.normalized() : n;
 }
@@ -105,15 +105,20 @@ HandleSearch::HandleSearch(const SearchInput& input, const Gripper& gripper, con
 }
 
 std::pmr::vector<HandleSearch::Seed> HandleSearch::spread_seeds(std::span<const std::uint32_t> points) const {
-  NearPoints object(in_.cloud, points);
   std::pmr::vector<Seed> seeds;
   for (const std::uint32_t k : thin_out(points_at(in_.cloud, points), config_.seed_spacing_m)) {
-    const std::uint32_t seed = points[k];
-    const std::int32_t s = in_.segments.of_point[seed];
-    if (s >= 0 && wanted_[static_cast<std::size_t>(s)] != 0)
-      seeds.push_back({seed, outward_directions(seed, face_normal(in_.normals, object, in_.cloud.point(seed),
-                                                                  in_.normals.at(seed)))});
+    const std::int32_t s = in_.segments.of_point[points[k]];
+    if (s >= 0 && wanted_[static_cast<std::size_t>(s)] != 0) seeds.push_back({points[k], {}});
   }
+  const NearPoints object(in_.cloud, points);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, seeds.size(), 16), [&](const auto& range) {
+    NearPoints::Buffer buffer;
+    for (std::size_t k = range.begin(); k != range.end(); ++k) {
+      const std::uint32_t p = seeds[k].point;
+      seeds[k].outward = outward_directions(
+          p, face_normal(in_.normals, object, in_.cloud.point(p), in_.normals.at(p), buffer));
+    }
+  });
   return seeds;
 }
 

@@ -8,7 +8,7 @@
 namespace graspd {
 
 NearPoints::NearPoints(const PointCloud& cloud, std::span<const std::uint32_t> points)
-    : points_(cloud, points), near_(points.size() + kPointPadding) {
+    : points_(cloud, points) {
   constexpr float kFar = std::numeric_limits<float>::max();
   for (std::size_t from = 0; from < points_.size(); from += kBlock) {
     const PointRange part = points_.range(from, std::min(from + kBlock, points_.size()));
@@ -19,19 +19,21 @@ NearPoints::NearPoints(const PointCloud& cloud, std::span<const std::uint32_t> p
     low_.push_back(low);
     high_.push_back(high);
   }
-  spans_.reserve(low_.size());
 }
 
-std::span<const std::uint32_t> NearPoints::within(const Eigen::Vector3f& p, float distance_m) {
+std::span<const std::uint32_t> NearPoints::within(const Eigen::Vector3f& p, float distance_m,
+                                                  Buffer& buffer) const {
   const float reach = distance_m + 1e-5f;
-  spans_.clear();
+  buffer.spans.clear();
+  if (const std::size_t room = points_.size() + kPointPadding; buffer.near.size() < room)
+    buffer.near.resize(room);
   for (std::size_t k = 0; k < low_.size(); ++k)
     if ((p.array() >= low_[k] - reach).all() && (p.array() <= high_[k] + reach).all())
-      spans_.push_back({static_cast<std::uint32_t>(k * kBlock),
-                        static_cast<std::uint32_t>(std::min((k + 1) * kBlock, points_.size()))});
+      buffer.spans.push_back({static_cast<std::uint32_t>(k * kBlock),
+                              static_cast<std::uint32_t>(std::min((k + 1) * kBlock, points_.size()))});
   const std::size_t n = point_kernels().keep_near({p.x(), p.y(), p.z()}, distance_m * distance_m,
-                                                  points_.all(), spans_, near_.data());
-  return {near_.data(), n};
+                                                  points_.all(), buffer.spans, buffer.near.data());
+  return {buffer.near.data(), n};
 }
 
 }  // namespace graspd

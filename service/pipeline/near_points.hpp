@@ -17,11 +17,19 @@ namespace graspd {
 
 class NearPoints {
  public:
+  /// Working memory of one thread.
+  struct Buffer {
+    std::pmr::vector<PointSpan> spans;
+    RawVector<std::uint32_t> near;
+  };
+
   /// points: indices into the cloud, in an order in which those that follow one another are near each other.
   NearPoints(const PointCloud& cloud, std::span<const std::uint32_t> points);
 
-  /// Indices into the cloud of the points within a distance of p [m], in their order; until the next call.
-  [[nodiscard]] std::span<const std::uint32_t> within(const Eigen::Vector3f& p, float distance_m);
+  /// Indices into the cloud of the points within a distance of p [m], in their order; until the next call
+  /// with the buffer.
+  [[nodiscard]] std::span<const std::uint32_t> within(const Eigen::Vector3f& p, float distance_m,
+                                                      Buffer& buffer) const;
 
  private:
   /// Most blocks of a few points are nowhere near a place.
@@ -29,8 +37,6 @@ class NearPoints {
 
   PaddedPoints points_;
   std::pmr::vector<Eigen::Array3f> low_, high_;  // of each block
-  std::pmr::vector<PointSpan> spans_;
-  RawVector<std::uint32_t> near_;
 };
 
 }  // namespace graspd

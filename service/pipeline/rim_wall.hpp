@@ -4,6 +4,7 @@
 // walls within a few degrees, and what noise leaves of a strip as wide as a finger does not tell that.
 #pragma once
 #include <Eigen/Core>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -44,6 +45,11 @@ class RimWall {
   /// Columns: along the rim, across the wall so far below the place [m] (its normal on the side of the
   /// rim's), and down along it there.
   [[nodiscard]] Eigen::Matrix3f gripper_axes(float below_m) const;
+
+  /// How far the wall's profile is from straight over so much of it below the place [m].
+  [[nodiscard]] float bend_m(float depth_m) const {
+    return 0.125f * std::abs(changes_.y()) * depth_m * depth_m;
+  }
 
   /// Standard error of the normal's direction [rad], as if every point had noise of its own: noise that
   /// neighbours share makes the true one several times as large.

@@ -156,6 +156,23 @@ TEST(RimWall, NoiseDoesNotBendAStraightWall) {
   EXPECT_GE(num_straight, 18) << "of 20";
 }
 
+TEST(RimWall, KnowsHowBentItIs) {
+  constexpr float kDepth = 0.03f, kRadius = 0.07f;
+  const auto bend = [](const Shape& shape, float radius, bool with_axis) {
+    const Wall wall = wall_of(shape, -1.5f, 1.5f, 0.001f, 1);
+    const Rim rim{{radius, 0, kHeight}, Eigen::Vector3f::UnitX(), Eigen::Vector3f::UnitZ()};
+    const auto axis = with_axis ? std::optional(VesselAxis{Eigen::Vector3f::Zero(), Eigen::Vector3f::UnitZ()})
+                                : std::optional<VesselAxis>();
+    return RimWall::fit(wall.input(), wall.near(rim.p), rim, axis)->bend_m(kDepth);
+  };
+  const float rise = 0.125f * kDepth * kDepth / kRadius;
+  for (const bool with_axis : {false, true}) {
+    EXPECT_NEAR(bend(bowl(kRadius, 1), kRadius, with_axis), rise, 0.5f * rise)
+        << "no circle, but its parabola";
+    EXPECT_LT(bend(mug(0.04f, 1), 0.04f, with_axis), 0.0005f);
+  }
+}
+
 TEST(RimWall, KnowsHowSureItIs) {
   const auto error = [](float noise_m, std::size_t every, bool with_axis) {
     const Wall wall = wall_of(mug(0.04f, 1), -1.5f, 1.5f, noise_m, 1);

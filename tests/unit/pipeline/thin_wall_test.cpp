@@ -10,6 +10,9 @@
 
 #include "client/simulate/depth_camera.hpp"
 #include "service/pipeline/detect_handles.hpp"
+#include "service/pipeline/rim_search.hpp"
+#include "service/pipeline/surfaces.hpp"
+#include "service/pipeline/workspace_filter.hpp"
 
 namespace graspd {
 namespace {
@@ -97,23 +100,43 @@ Scene bowl_on_table(double radius, double wall) {
   return {{table, bowl}};
 }
 
+/// The bowl as a camera above the table's edge sees it.
+PointCloud seen_bowl(double radius, const Eigen::Isometry3d& T_world_camera) {
+  const Scene scene = bowl_on_table(radius, 0.005);
+  return to_cloud(render(scene, {640, 480, 525, 525, 319.5, 239.5}, T_world_camera)).cloud;
+}
+
+TEST(ThinWall, ABentOneIsNeverMetAtTheWholeDepth) {
+  const WorkspaceResult kept = filter_workspace(seen_bowl(0.07, look_at({0, -0.4, 0.45}, {0, 0, 0.03})), {});
+  const Surfaces s = find_surfaces(kept.cloud, {}, [](std::string_view) {});
+  const ObjectPoints points = points_by_object(s.objects);
+  const SearchInput input{s.cloud, s.normals, s.segments, s.objects, points, s.support};
+  const Gripper gripper;
+  std::size_t num = 0;
+  for (std::size_t object = 0; object < points.starts.size() - 1; ++object)
+    for (const Candidate& candidate : rim_candidates(input, object, gripper, {})) {
+      ++num;
+      EXPECT_LT(candidate.depth_m, gripper.grasp_depth_m);
+    }
+  EXPECT_GT(num, 10u);
+}
+
 TEST(ThinWall, ABowlIsHeldByItsRimLessDeepThanTheHandReaches) {
   constexpr double kRadius = 0.07;
   const Gripper gripper;
   const Eigen::Isometry3d T_world_camera = look_at({0, -0.4, 0.45}, {0, 0, 0.03});
-  const LabelledCloud seen =
-      to_cloud(render(bowl_on_table(kRadius, 0.005), {640, 480, 525, 525, 319.5, 239.5}, T_world_camera));
-  const Detection found = detect_handles(seen.cloud, gripper, {});
+  const Detection found = detect_handles(seen_bowl(kRadius, T_world_camera), gripper, {});
   ASSERT_FALSE(found.handles.empty());
-  const Handle& handle = found.handles.front();
-  const Eigen::Vector3d p = T_world_camera * handle.position.cast<double>();
-  const Eigen::Matrix3d r = T_world_camera.linear() * handle.rotation.cast<double>();
-  const double tips = p.z() + double(gripper.grasp_depth_m) * r(2, 2);
-  EXPECT_LT(handle.width_m, 0.011f);
-  EXPECT_GT(tips, kRadius - 0.022) << "further down the wall bends away";
-  EXPECT_LT(tips, kRadius - 0.010);
-  const Eigen::Vector3d outwards = Eigen::Vector3d(p.x(), p.y(), 0).normalized();
-  EXPECT_GT(std::abs(r.col(1).dot(outwards)), 0.95) << "across the wall";
+  for (const Handle& handle : found.handles) {
+    const Eigen::Vector3d p = T_world_camera * handle.position.cast<double>();
+    const Eigen::Matrix3d r = T_world_camera.linear() * handle.rotation.cast<double>();
+    const double tips = p.z() + double(gripper.grasp_depth_m) * r(2, 2);
+    EXPECT_LT(handle.width_m, 0.011f);
+    EXPECT_GT(tips, kRadius - 0.022) << "further down the wall bends away";
+    EXPECT_LT(tips, kRadius - 0.010);
+    const Eigen::Vector3d outwards = Eigen::Vector3d(p.x(), p.y(), 0).normalized();
+    EXPECT_GT(std::abs(r.col(1).dot(outwards)), 0.95) << "across the wall";
+  }
 }
 
 }  // namespace
