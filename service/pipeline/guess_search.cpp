@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <tuple>
 
 #include "service/pipeline/careful_check.hpp"
@@ -27,26 +28,6 @@ constexpr std::size_t kAtOnce = 6, kEnoughHandles = 4, kMostOfAnObject = 18;
 
 // The first look is taken at the candidates on a segment in so many parts, each spread over all of them.
 constexpr std::size_t kParts = 16;
-
-using Results = std::pmr::vector<CheckResult>;
-
-/// outlines: a first look, which refuses at little cost what is much too wide; null: the thorough one.
-Results check_all(const SceneView& scene, const Gripper& gripper, const HandleCheckConfig& config,
-                  const std::pmr::vector<Candidate>& candidates, const ObjectOutlines* outlines,
-                  CheckBuffersOfThreads& buffers) {
-  Results results(candidates.size());
-  // One at a time: they take from next to nothing to a hundred microseconds.
-  tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t i) {
-    CheckBuffers& own = buffers.local();
-    const Candidate& candidate = candidates[i];
-    if (outlines && outlines->clearly_too_wide(candidate, gripper, own.local))
-      results[i].failure = Failure::kTooWide;
-    else
-      results[i] = outlines ? check_candidate(scene, gripper, config, candidate, own)
-                            : check_squarely(scene, gripper, config, candidate, own);
-  });
-  return results;
-}
 
 FoundHandle scored(const CheckResult& result, const Guess& guess, const Candidate& candidate,
                    const SceneView& scene, const SceneView& sparse) {
@@ -104,7 +85,6 @@ void set_ranks(std::pmr::vector<Promising>& all) {
 
 /// What the first looks at a segment came to.
 struct Tally {
-  std::size_t num = 0;  ///< candidates on it
   std::size_t looked_at = 0, had_room = 0, passed = 0;
 
   void count(Failure failure) {
@@ -124,28 +104,33 @@ struct Tally {
 template <class Check>
 std::pmr::vector<Promising> promising_ones(const std::pmr::vector<Candidate>& candidates, const Check& check,
                                            SearchResult& out) {
-  std::pmr::vector<Tally> tallies(out.segments.size());
-  const auto tally = [&](const Candidate& c) -> Tally& {
-    return tallies[static_cast<std::size_t>(c.segment)];
-  };
-  std::pmr::vector<std::pmr::vector<std::uint32_t>> parts(kParts);
-  for (std::uint32_t i = 0; i < candidates.size(); ++i)
-    parts[tally(candidates[i]).num++ % kParts].push_back(i);
-  std::pmr::vector<Promising> passed;
-  std::pmr::vector<Candidate> next;
-  for (const std::pmr::vector<std::uint32_t>& part : parts) {
-    next.clear();
-    for (const std::uint32_t i : part)
-      if (!tally(candidates[i]).is_clear()) next.push_back(candidates[i]);
-    const Results results = check(next);
-    for (std::size_t k = 0; k < next.size(); ++k) {
-      tally(next[k]).count(results[k].failure);
-      if (results[k].failure == Failure::kNone)
-        passed.push_back({next[k], score(results[k].margins), results[k].handle.position});
-      else
-        out.count(next[k].segment, results[k].failure);
-    }
+  std::pmr::vector<std::pmr::vector<std::uint32_t>> of_segment(out.segments.size()), parts(kParts);
+  for (std::uint32_t i = 0; i < candidates.size(); ++i) {
+    auto& own = of_segment[static_cast<std::size_t>(candidates[i].segment)];
+    parts[own.size() % kParts].push_back(i);
+    own.push_back(i);
   }
+  std::pmr::vector<std::optional<CheckResult>> results(candidates.size());
+  tbb::parallel_for(std::size_t{0}, of_segment.size(), [&](std::size_t s) {
+    const std::pmr::vector<std::uint32_t>& own = of_segment[s];
+    Tally tally;
+    for (std::size_t part = 0; part < std::min(kParts, own.size()) && !tally.is_clear(); ++part) {
+      const std::size_t num = (own.size() - part + kParts - 1) / kParts;
+      const auto nth = [&](std::size_t k) { return own[part + k * kParts]; };
+      tbb::parallel_for(std::size_t{0}, num,
+                        [&](std::size_t k) { results[nth(k)] = check(candidates[nth(k)]); });
+      for (std::size_t k = 0; k < num; ++k) tally.count(results[nth(k)]->failure);
+    }
+  });
+  std::pmr::vector<Promising> passed;
+  for (const std::pmr::vector<std::uint32_t>& part : parts)
+    for (const std::uint32_t i : part) {
+      if (!results[i]) continue;
+      if (results[i]->failure == Failure::kNone)
+        passed.push_back({candidates[i], score(results[i]->margins), results[i]->handle.position});
+      else
+        out.count(candidates[i].segment, results[i]->failure);
+    }
   set_ranks(passed);
   return passed;
 }
@@ -241,13 +226,19 @@ void GuessSearch::run(const std::pmr::vector<std::uint8_t>& wanted, CheckBuffers
     for (std::size_t k = 0; k < open.size(); ++k)
       if (num_handles[k] > 0) open[k] = 0;
     const std::pmr::vector<Candidate> candidates = search.candidates(round, open);
-    const auto first_look = [&](const std::pmr::vector<Candidate>& some) {
-      return check_all(sparse_, gripper_, coarse_check_, some, &outlines_, buffers);
+    const auto first_look = [&](const Candidate& candidate) {
+      CheckBuffers& own = buffers.local();
+      return outlines_.clearly_too_wide(candidate, gripper_, own.local)
+                 ? CheckResult{Failure::kTooWide, {}, {}}
+                 : check_candidate(sparse_, gripper_, coarse_check_, candidate, own);
     };
     const std::pmr::vector<Promising> promising = promising_ones(candidates, first_look, out);
     for (std::size_t rank = 0; rank < kMostOfAnObject; rank += kAtOnce) {
       const std::pmr::vector<Candidate> next = next_ones(promising, rank, num_handles);
-      const Results fine = check_all(points_, gripper_, config_.check, next, nullptr, buffers);
+      std::pmr::vector<CheckResult> fine(next.size());
+      tbb::parallel_for(std::size_t{0}, next.size(), [&](std::size_t k) {
+        fine[k] = check_squarely(points_, gripper_, config_.check, next[k], buffers.local());
+      });
       for (std::size_t k = 0; k < next.size(); ++k) {
         out.count(next[k].segment, fine[k].failure);
         if (fine[k].failure != Failure::kNone) continue;
