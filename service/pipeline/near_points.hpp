@@ -3,6 +3,7 @@
 // Which points of an object are near a place, asked for at many places.
 #pragma once
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <memory_resource>
 #include <span>
@@ -19,6 +20,7 @@ class NearPoints {
  public:
   /// Working memory of one thread.
   struct Buffer {
+    RawVector<std::int32_t> is_near;  // each block
     std::pmr::vector<PointSpan> spans;
     RawVector<std::uint32_t> near;
   };
@@ -32,11 +34,14 @@ class NearPoints {
                                                       Buffer& buffer) const;
 
  private:
+  /// Writes for each block whether a box with a half side around p may meet it.
+  void test_blocks(const Eigen::Vector3f& p, float half_m, std::int32_t* is_near) const;
+
   /// Most blocks of a few points are nowhere near a place.
   static constexpr std::size_t kBlock = 64;
 
   PaddedPoints points_;
-  std::pmr::vector<Eigen::Array3f> low_, high_;  // of each block
+  std::array<RawVector<float>, 3> low_, high_;  // of each block, by axis
 };
 
 }  // namespace graspd
