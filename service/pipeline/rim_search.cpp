@@ -49,10 +49,10 @@ std::pmr::vector<std::uint32_t> highest_points(const SearchInput& in, std::span<
   return chosen;
 }
 
-/// A point of the cloud where a surface ends upwards.
+/// Where a surface of an object ends upwards.
 struct RimPlace {
-  std::uint32_t point;
   Rim rim;
+  std::int32_t segment, object;
 };
 
 std::pmr::vector<RimPlace> find_places(const SearchInput& in, const NearPoints& wall,
@@ -64,23 +64,22 @@ std::pmr::vector<RimPlace> find_places(const SearchInput& in, const NearPoints& 
     const Eigen::Vector3f p = in.cloud.point(k), n = in.normals.at(k);
     if (in.segments.of_point[k] < 0 || n.isZero() || up.cross(n).norm() < kMinUp) continue;
     const std::optional<Eigen::Vector3f> end = end_direction(in, wall, p, n, buffer);
-    if (end && end->dot(up) >= kMinUp) places.push_back({k, {p, n, *end}});
+    if (end && end->dot(up) >= kMinUp)
+      places.push_back({{p, n, *end}, in.segments.of_point[k], in.objects.of_point[k]});
   }
   return places;
 }
 
 /// With the fingertips at the whole depth and less deep, where the sensor sees the side that the hand comes
 /// from.
-void add_candidates(const SearchInput& in, const RimPlace& place, const RimWall& wall, std::int32_t object,
-                    const Gripper& gripper, const HandleSearchConfig& config,
-                    std::pmr::vector<Candidate>& out) {
+void add_candidates(const SearchInput& in, const RimPlace& place, const RimWall& wall, const Gripper& gripper,
+                    const HandleSearchConfig& config, std::pmr::vector<Candidate>& out) {
   const Eigen::Vector3f to_sensor = (in.cloud.viewpoint - place.rim.p).normalized();
   for (const float depth_m : {gripper.grasp_depth_m, kShallow * gripper.grasp_depth_m}) {
     if (depth_m == gripper.grasp_depth_m && wall.bend_m(depth_m) > kMaxBend) continue;
     const Eigen::Matrix3f axes = wall.gripper_axes(0.5f * depth_m);
     if (-axes.col(2).dot(to_sensor) >= config.min_facing_cosine)
-      out.push_back({place.rim.p, axes, in.segments.of_point[place.point], object, depth_m, axes.col(1),
-                     wall.error_rad()});
+      out.push_back({place.rim.p, axes, place.segment, place.object, depth_m, axes.col(1), wall.error_rad()});
   }
 }
 
@@ -104,9 +103,7 @@ std::pmr::vector<Candidate> rim_candidates(const SearchInput& in, std::size_t ob
       walls[k] = RimWall::fit(in, wall.within(places[k].rim.p, RimWall::kReach, buffer), places[k].rim, axis);
   });
   for (std::size_t k = 0; k < places.size(); ++k)
-    if (walls[k])
-      add_candidates(in, places[k], *walls[k], static_cast<std::int32_t>(object), gripper, config,
-                     candidates);
+    if (walls[k]) add_candidates(in, places[k], *walls[k], gripper, config, candidates);
   return candidates;
 }
 

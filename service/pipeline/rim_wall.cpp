@@ -103,7 +103,7 @@ Fit<n> fit_polynomial(const Profile& profile) {
 Fit<3> fit_profile(const Profile& profile) {
   constexpr float kClearly = 1.08f;  // of the variances
   const Fit<2> straight = fit_polynomial<2>(profile);
-  const Fit<3> curved = fit_polynomial<3>(profile);
+  Fit<3> curved = fit_polynomial<3>(profile);
   if (straight.variance > kClearly * curved.variance) return curved;
   Fit<3> fit{{straight.c[0], straight.c[1], 0}, Eigen::Matrix3f::Zero(), straight.variance};
   fit.covariance.topLeftCorner<2, 2>() = straight.covariance;
