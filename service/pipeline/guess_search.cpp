@@ -8,7 +8,6 @@
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <optional>
 #include <tuple>
 
 #include "service/pipeline/careful_check.hpp"
@@ -83,6 +82,22 @@ void set_ranks(std::pmr::vector<Promising>& all) {
   for (const std::size_t i : order) all[i].rank = seen[all[i].candidate.object]++;
 }
 
+/// What is kept of a first look.
+struct FirstLook {
+  bool is_taken = false;
+  Failure failure = Failure::kNone;
+  // Of those that passed.
+  float score = 0;
+  Eigen::Vector3f position = Eigen::Vector3f::Zero();  // fitted
+
+  FirstLook() = default;
+  explicit FirstLook(const CheckResult& result) : is_taken(true), failure(result.failure) {
+    if (failure != Failure::kNone) return;
+    score = graspd::score(result.margins);
+    position = result.handle.position;
+  }
+};
+
 /// What the first looks at a segment came to.
 struct Tally {
   std::size_t looked_at = 0, had_room = 0, passed = 0;
@@ -110,7 +125,7 @@ std::pmr::vector<Promising> promising_ones(const std::pmr::vector<Candidate>& ca
     parts[own.size() % kParts].push_back(i);
     own.push_back(i);
   }
-  std::pmr::vector<std::optional<CheckResult>> results(candidates.size());
+  std::pmr::vector<FirstLook> looks(candidates.size());
   tbb::parallel_for(std::size_t{0}, of_segment.size(), [&](std::size_t s) {
     const std::pmr::vector<std::uint32_t>& own = of_segment[s];
     Tally tally;
@@ -118,18 +133,18 @@ std::pmr::vector<Promising> promising_ones(const std::pmr::vector<Candidate>& ca
       const std::size_t num = (own.size() - part + kParts - 1) / kParts;
       const auto nth = [&](std::size_t k) { return own[part + k * kParts]; };
       tbb::parallel_for(std::size_t{0}, num,
-                        [&](std::size_t k) { results[nth(k)] = check(candidates[nth(k)]); });
-      for (std::size_t k = 0; k < num; ++k) tally.count(results[nth(k)]->failure);
+                        [&](std::size_t k) { looks[nth(k)] = FirstLook(check(candidates[nth(k)])); });
+      for (std::size_t k = 0; k < num; ++k) tally.count(looks[nth(k)].failure);
     }
   });
   std::pmr::vector<Promising> passed;
   for (const std::pmr::vector<std::uint32_t>& part : parts)
     for (const std::uint32_t i : part) {
-      if (!results[i]) continue;
-      if (results[i]->failure == Failure::kNone)
-        passed.push_back({candidates[i], score(results[i]->margins), results[i]->handle.position});
+      if (!looks[i].is_taken) continue;
+      if (looks[i].failure == Failure::kNone)
+        passed.push_back({candidates[i], looks[i].score, looks[i].position});
       else
-        out.count(candidates[i].segment, results[i]->failure);
+        out.count(candidates[i].segment, looks[i].failure);
     }
   set_ranks(passed);
   return passed;
