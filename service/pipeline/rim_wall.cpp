@@ -30,13 +30,6 @@ constexpr float kRidge = 1e-4f;     // on the scaled normal equations
 constexpr int kRounds = 3;          // of weighing points anew
 constexpr std::size_t kMinPoints = 8;
 
-/// A point of the wall: how far out it is, and what the surface there is a sum of.
-template <int n>
-struct Sample {
-  Eigen::Matrix<float, n, 1> row;
-  float out;
-};
-
 template <int n>
 struct Fit {
   Eigen::Matrix<float, n, 1> c;
@@ -44,17 +37,24 @@ struct Fit {
   float variance;                         ///< of what is left [m^2]
 };
 
+using Row = Eigen::Matrix<float, 6, 1>;
+
+/// A point of the wall: how far out it is, and what a quadratic surface there is a sum of.
+struct Sample {
+  Row row;
+  float out;
+};
+
 /// Least squares, reweighted by Cauchy weights.
-template <int n>
-Fit<n> fit_samples(const std::pmr::vector<Sample<n>>& samples) {
-  Eigen::Matrix<float, n, 1> c = Eigen::Matrix<float, n, 1>::Zero();
-  Eigen::Matrix<float, n, n> A;
+Fit<6> fit_surface(const std::pmr::vector<Sample>& samples) {
+  Row c = Row::Zero();
+  Eigen::Matrix<float, 6, 6> A;
   float variance = 0;
   for (int round = 0; round < kRounds; ++round) {
-    A = kRidge * Eigen::Matrix<float, n, n>::Identity();
-    Eigen::Matrix<float, n, 1> b = Eigen::Matrix<float, n, 1>::Zero();
+    A = kRidge * Eigen::Matrix<float, 6, 6>::Identity();
+    Row b = Row::Zero();
     float sum = 0, squares = 0;
-    for (const Sample<n>& s : samples) {
+    for (const Sample& s : samples) {
       const float off = s.out - s.row.dot(c), error = round == 0 ? 0 : off / kScale;
       const float weight = 1 / (1 + error * error);
       A += weight * s.row * s.row.transpose();
@@ -80,7 +80,7 @@ struct Profile {
   }
 };
 
-/// A polynomial with n coefficients through it, as fit_samples() does it.
+/// A polynomial with n coefficients through it, as fit_surface() does it.
 template <int n>
 Fit<n> fit_polynomial(const Profile& profile) {
   const FacePoints points{profile.down.data(), profile.down.data(), profile.out.data(), profile.size};
@@ -192,7 +192,7 @@ std::optional<RimWall> RimWall::fit_free(const SearchInput& in, std::span<const 
   wall.out_ = rim.n;
   wall.up_ = rim.up;
   wall.along_ = rim.n.cross(rim.up);
-  std::pmr::vector<Sample<6>> samples;
+  std::pmr::vector<Sample> samples;
   for (const std::uint32_t i : near) {
     const Eigen::Vector3f d = in.cloud.point(i) - rim.p;
     const float below = -rim.up.dot(d), aside = wall.along_.dot(d), out = rim.n.dot(d);
@@ -200,16 +200,16 @@ std::optional<RimWall> RimWall::fit_free(const SearchInput& in, std::span<const 
         in.normals.at(i).dot(rim.n) < kMinFacing)
       continue;
     const float a = aside / kMaxAside, z = below / kDeep;
-    Sample<6>& sample = samples.emplace_back();
+    Sample& sample = samples.emplace_back();
     sample.row << 1, a, z, a * a, z * z, a * z;
     sample.out = out;
   }
   if (samples.size() < kMinPoints) return std::nullopt;
-  const Fit<6> fit = fit_samples(samples);
-  const Eigen::Matrix<float, 6, 1>& c = fit.c;
+  const Fit<6> fit = fit_surface(samples);
+  const Row& c = fit.c;
   wall.slopes_ = {c[1] / kMaxAside, c[2] / kDeep};
   wall.changes_ = {c[5] / (kMaxAside * kDeep), 2 * c[4] / (kDeep * kDeep)};
-  Eigen::Matrix<float, 6, 1> aside, down;
+  Row aside, down;
   aside << 0, 1, 0, 0, 0, kBetween;
   down << 0, 0, 1, 0, 2 * kBetween, 0;
   wall.error_rad_ = std::hypot(standard_error(fit, aside) / kMaxAside, standard_error(fit, down) / kDeep);
