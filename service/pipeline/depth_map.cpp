@@ -78,14 +78,29 @@ std::pair<std::uint32_t, std::uint32_t> column_range(const ImagePixels& pixels) 
 }  // namespace
 
 DepthMap::DepthMap(const PointCloud& cloud, const ImagePixels& pixels)
-    : viewpoint_(cloud.viewpoint), to_view_(Eigen::Matrix3f::Identity()) {
-  if (!cloud.empty()) {
-    if (const auto camera = fit_pinhole(cloud, pixels))
-      take_image(cloud, pixels, *camera);
-    else
-      render(cloud);
-  }
-  view_ = view();
+    : view_{{cloud.viewpoint.x(), cloud.viewpoint.y(), cloud.viewpoint.z()},
+            {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+            {1, 1},
+            {0, 0},
+            0,
+            0,
+            nullptr,
+            nullptr} {
+  if (cloud.empty()) return;
+  if (const auto camera = fit_pinhole(cloud, pixels))
+    take_image(cloud, pixels, *camera);
+  else
+    render(cloud);
+}
+
+void DepthMap::set_size(int width, int height) {
+  view_.width = width;
+  view_.height = height;
+  const auto size = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  depth_.resize(size);
+  point_.resize(size);
+  view_.depth = depth_.data();
+  view_.point = point_.data();
 }
 
 /// Rows before the first point's and after the last one's are left out: nothing is seen there.
@@ -93,14 +108,11 @@ void DepthMap::take_image(const PointCloud& cloud, const ImagePixels& pixels, co
   const auto width = static_cast<std::uint32_t>(pixels.width);
   const std::uint32_t max_gap = static_cast<std::uint32_t>(std::max(pixels.width, pixels.height)) / 10,
                       first_row = pixels.of_point.front() / width, last_row = pixels.of_point.back() / width;
-  width_ = pixels.width;
-  height_ = static_cast<int>(last_row - first_row) + 1;
-  focal_u_ = camera.fx_px;
-  focal_v_ = camera.fy_px;
-  center_u_ = camera.cx_px;
-  center_v_ = camera.cy_px - static_cast<float>(first_row);
-  depth_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
-  point_.resize(depth_.size());
+  set_size(pixels.width, static_cast<int>(last_row - first_row) + 1);
+  view_.focal[0] = camera.fx_px;
+  view_.focal[1] = camera.fy_px;
+  view_.center[0] = camera.cx_px;
+  view_.center[1] = camera.cy_px - static_cast<float>(first_row);
   std::uint32_t next = 0;  // the first pixel that is not set
   for (std::size_t i = 0; i < cloud.size();) {
     const std::uint32_t at = pixels.of_point[i] - first_row * width;
@@ -117,15 +129,15 @@ void DepthMap::take_image(const PointCloud& cloud, const ImagePixels& pixels, co
   }
   fill(next, depth_.size(), 0, kFree);
   const auto [first_column, last_column] = column_range(pixels);
-  const auto seen = static_cast<float>(last_column - first_column + 1) * static_cast<float>(height_);
-  point_area_ = seen / (static_cast<float>(cloud.size()) * focal_u_ * focal_v_);
+  const auto seen = static_cast<float>(last_column - first_column + 1) * static_cast<float>(view_.height);
+  point_area_ = seen / (static_cast<float>(cloud.size()) * view_.focal[0] * view_.focal[1]);
   const auto is_border = [](std::uint32_t empty, int of) {
     return static_cast<float>(empty) <= kBorder * static_cast<float>(of);
   };
-  above_ = is_border(first_row, pixels.height) ? kOutOfView : kFree;
-  below_ =
+  view_.above = is_border(first_row, pixels.height) ? kOutOfView : kFree;
+  view_.below =
       is_border(static_cast<std::uint32_t>(pixels.height) - 1 - last_row, pixels.height) ? kOutOfView : kFree;
-  beside_ = kOutOfView;
+  view_.beside = kOutOfView;
   for (std::size_t row = 0; row < depth_.size(); row += width) {
     if (is_border(first_column, pixels.width)) fill(row, row + first_column, kNearest, kOutOfView);
     if (is_border(width - 1 - last_column, pixels.width))
@@ -138,7 +150,7 @@ std::uint32_t DepthMap::take_pixels(const PointCloud& cloud, const ImagePixels& 
   constexpr std::uint32_t kAtOnce = 16;
   const bool are_many =
       i + kAtOnce <= cloud.size() && pixels.of_point[i + kAtOnce - 1] == pixels.of_point[i] + kAtOnce - 1;
-  const float *z = cloud.z.data() + i, origin = viewpoint_.z();
+  const float *z = cloud.z.data() + i, origin = view_.origin[2];
   float* depth = depth_.data() + at;
   std::int32_t* point = point_.data() + at;
   const auto first = static_cast<std::int32_t>(i);
@@ -153,15 +165,15 @@ std::uint32_t DepthMap::take_pixels(const PointCloud& cloud, const ImagePixels& 
 }
 
 void DepthMap::render(const PointCloud& cloud) {
-  const Eigen::Vector3f sum = sum_of_directions(view(), cloud);
+  const Eigen::Vector3f sum = sum_of_directions(view_, cloud);
   if (sum.norm() < 1e-3f) return;
-  to_view_ = looking_along(sum.normalized());
+  Eigen::Map<Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>(view_.axes[0]) = looking_along(sum.normalized());
 
   float left = kMaxSlope, right = -kMaxSlope, top = kMaxSlope, bottom = -kMaxSlope;
   const PointKernels& kernels = point_kernels();
   float u[kBlock], v[kBlock];
   for (std::size_t from = 0; from < cloud.size(); from += kBlock) {
-    const ViewBlock block(view(), cloud, from);
+    const ViewBlock block(view_, cloud, from);
     for (std::size_t k = 0; k < block.size; ++k) {
       // NaN takes no part in the bounds.
       const float z = block.z[k] > 0 ? block.z[k] : std::numeric_limits<float>::quiet_NaN();
@@ -183,24 +195,21 @@ void DepthMap::render(const PointCloud& cloud) {
   const float focal =
       std::min(std::sqrt(static_cast<float>(cloud.size()) / area),
                static_cast<float>(kMaxSide - 4) / std::max({right - left, bottom - top, kMinSide}));
-  focal_u_ = focal_v_ = focal;
+  view_.focal[0] = view_.focal[1] = focal;
   point_area_ = 1 / (focal * focal);
-  width_ = static_cast<int>(focal * (right - left)) + 3;
-  height_ = static_cast<int>(focal * (bottom - top)) + 3;
-  center_u_ = 1 - focal * left;
-  center_v_ = 1 - focal * top;
+  set_size(static_cast<int>(focal * (right - left)) + 3, static_cast<int>(focal * (bottom - top)) + 3);
+  view_.center[0] = 1 - focal * left;
+  view_.center[1] = 1 - focal * top;
   splat(cloud);
-  close_gaps(std::max(width_, height_) / 10);
+  close_gaps(std::max(view_.width, view_.height) / 10);
 }
 
 void DepthMap::splat(const PointCloud& cloud) {
-  const auto size = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
-  depth_.assign(size, 0);
-  point_.assign(size, kFree);
+  fill(0, depth_.size(), 0, kFree);
   std::int32_t pixel[kBlock];
   for (std::size_t from = 0; from < cloud.size(); from += kBlock) {
-    ViewBlock block(view(), cloud, from);
-    point_kernels().find_pixels(view(), block.points(), block.size, pixel);
+    ViewBlock block(view_, cloud, from);
+    point_kernels().find_pixels(view_, block.points(), block.size, pixel);
     for (std::size_t k = 0; k < block.size; ++k) {
       if (pixel[k] < 0) continue;
       const auto at = static_cast<std::size_t>(pixel[k]);
@@ -212,10 +221,10 @@ void DepthMap::splat(const PointCloud& cloud) {
 }
 
 void DepthMap::close_gaps(int max_gap) {
-  for (int v = 0; v < height_; ++v) {
-    const std::size_t row = static_cast<std::size_t>(v) * static_cast<std::size_t>(width_);
+  for (int v = 0; v < view_.height; ++v) {
+    const std::size_t row = static_cast<std::size_t>(v) * static_cast<std::size_t>(view_.width);
     int last = -1;
-    for (int u = 0; u < width_; ++u) {
+    for (int u = 0; u < view_.width; ++u) {
       if (depth_[row + static_cast<std::size_t>(u)] == 0) continue;
       if (last >= 0 && u - last > 1 && u - last <= max_gap)
         close_gap(row + static_cast<std::size_t>(last) + 1, row + static_cast<std::size_t>(u));
@@ -235,25 +244,9 @@ void DepthMap::fill(std::size_t from, std::size_t to, float depth, std::int32_t 
   std::fill(point_.data() + from, point_.data() + to, point);
 }
 
-ViewImage DepthMap::view() const {
-  ViewImage view{{viewpoint_.x(), viewpoint_.y(), viewpoint_.z()},
-                 {},
-                 {focal_u_, focal_v_},
-                 {center_u_, center_v_},
-                 width_,
-                 height_,
-                 depth_.data(),
-                 point_.data(),
-                 beside_,
-                 above_,
-                 below_};
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) view.axes[i][j] = to_view_(i, j);
-  return view;
-}
-
 float DepthMap::ray_area(const Eigen::Vector3f& p) const {
-  const float depth = to_view_.row(2).dot(p - viewpoint_);
+  const Eigen::Map<const Eigen::Vector3f> forward(view_.axes[2]), origin(view_.origin);
+  const float depth = forward.dot(p - origin);
   return depth * depth * point_area_;
 }
 

@@ -45,17 +45,12 @@ class DepthMap {
   /// Pixels [from, to) of a row, where nothing is seen, between two where something is.
   void close_gap(std::size_t from, std::size_t to);
   void fill(std::size_t from, std::size_t to, float depth, std::int32_t point);
-  [[nodiscard]] ViewImage view() const;
+  void set_size(int width, int height);
 
-  Eigen::Vector3f viewpoint_;
-  Eigen::Matrix3f to_view_;  // rows: right, down, forward
-  int width_ = 0, height_ = 0;
-  float focal_u_ = 1, focal_v_ = 1, center_u_ = 0, center_v_ = 0;
-  float point_area_ = 1;           // that a point stands for at depth 1
   RawVector<float> depth_;         // 0: nothing seen
   RawVector<std::int32_t> point_;  // that the depth is of
-  std::int32_t beside_ = kFree, above_ = kFree, below_ = kFree;
-  ViewImage view_;  // of all of this, for those who ask
+  ViewImage view_;                 // of both
+  float point_area_ = 1;           // that a point stands for at depth 1
 };
 
 }  // namespace graspd
