@@ -115,6 +115,12 @@ CellOrder order_by_cell(const PointCloud& cloud, float cell_m) {
   return order;
 }
 
+CellOrder order_by_cell(const PointCloud& cloud, std::span<const std::uint32_t> indices, float cell_m) {
+  CellOrder order = order_by_cell(points_at(cloud, indices), cell_m);
+  for (std::uint32_t& point : order.points) point = indices[point];
+  return order;
+}
+
 CellOrder in_order(CellOrder order) {
   std::iota(order.points.begin(), order.points.end(), 0u);
   return order;

@@ -185,8 +185,8 @@ GRASPD_AVX2 void find_hiders(const ViewImage& image, const Probes& places, float
 GRASPD_AVX2 void tag_band(const BandTags& tags, const BandPoints& points, std::int32_t* own,
                           std::int32_t* marks) {
   const __m256 first = _mm256_set1_ps(tags.first), bin = _mm256_set1_ps(tags.bin);
-  const __m256i object = _mm256_set1_epi32(tags.object), left_out = _mm256_set1_epi32(tags.left_out),
-                last = _mm256_set1_epi32(tags.num_bins - 1), no_mark = _mm256_set1_epi32(tags.no_mark()),
+  const __m256i object = _mm256_set1_epi32(tags.object), last = _mm256_set1_epi32(tags.num_bins - 1),
+                no_mark = _mm256_set1_epi32(tags.no_mark()),
                 stride = _mm256_set1_epi32(static_cast<int>(tags.stride()));
   std::size_t k = 0;
   for (; k + 8 <= points.size; k += 8) {
@@ -197,8 +197,7 @@ GRASPD_AVX2 void tag_band(const BandTags& tags, const BandPoints& points, std::i
     const __m256i is_own = _mm256_srli_epi32(same, 31);
     const __m256i b = floor_to_int(_mm256_div_ps(_mm256_sub_ps(_mm256_loadu_ps(points.f + k), first), bin));
     const __m256i outside = _mm256_or_si256(b, _mm256_cmpgt_epi32(b, last));  // by its sign
-    const __m256i none =
-        _mm256_or_si256(_mm256_cmpeq_epi32(of_point, left_out), _mm256_srai_epi32(outside, 31));
+    const __m256i none = _mm256_srai_epi32(outside, 31);
     const __m256i mark = _mm256_add_epi32(b, _mm256_and_si256(same, stride));
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(own + k), is_own);
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(marks + k), _mm256_blendv_epi8(mark, no_mark, none));

@@ -149,7 +149,7 @@ bool make_container(const Wall& a, const Wall& b, float min_apart_m) {
 std::pmr::vector<std::uint8_t> find_container(const PointCloud& cloud, const Segments& segments,
                                               const Support& support, const ContainerConfig& config) {
   if (!config.enabled) return {};
-  const RawVector<std::uint32_t> standing = unmarked(support.is_support);
+  const RawVector<std::uint32_t> standing = unmarked(support.is_support, cloud.size());
   const PaddedPoints points(cloud, standing);
   std::pmr::vector<Wall> walls = find_walls(segments, points.all(), support, config);
   const std::pmr::vector<Wall> all = walls;

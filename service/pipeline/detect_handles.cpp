@@ -41,13 +41,13 @@ Detection detect_handles(const PointCloud& cloud, const Gripper& gripper, const 
   if (kept.cloud.empty()) return detection;
 
   // Beside the surfaces, many of whose stages leave threads free.
-  std::optional<PointIndex> index;
+  std::optional<DepthMap> depth_map;
   Surfaces surfaces;
-  tbb::parallel_invoke([&] { index.emplace(kept.cloud, kept.pixels); },
+  tbb::parallel_invoke([&] { depth_map.emplace(kept.cloud, kept.pixels); },
                        [&] { surfaces = find_surfaces(kept.cloud, config, done, kept.pixels); });
   done("index");
   detection.points_used = static_cast<int>(surfaces.cloud.size());
-  FoundHandles found = find_handles(kept.cloud, *index, surfaces, gripper, config);
+  FoundHandles found = find_handles(kept.cloud, *depth_map, surfaces, gripper, config);
   detection.num_candidates = found.num_tried;
   detection.candidate_failures = found.failures;
   detection.segments = std::move(found.segments);

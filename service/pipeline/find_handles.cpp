@@ -92,10 +92,10 @@ void add_for_parts_without(const Surfaces& surfaces, std::pmr::vector<FoundHandl
 
 }  // namespace
 
-FoundHandles find_handles(const PointCloud& cloud, const PointIndex& index, const Surfaces& surfaces,
+FoundHandles find_handles(const PointCloud& cloud, const DepthMap& depth_map, const Surfaces& surfaces,
                           const Gripper& gripper, const DetectConfig& config) {
-  const FarSides far_sides = find_far_sides(surfaces, index.depth_map);
-  const CheckedScene scene{cloud, index, surfaces, far_sides};
+  const FarSides far_sides = find_far_sides(surfaces, depth_map);
+  const CheckedScene scene{cloud, depth_map, surfaces, far_sides};
   CheckBuffersOfThreads buffers;
   Settler settler(gripper, config.check, buffers);
   SearchResult result;

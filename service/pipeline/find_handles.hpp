@@ -20,8 +20,8 @@ struct FoundHandles {
   FailureCounts failures{};  ///< of all candidates tried
 };
 
-/// cloud: every point of the workspace, that the surfaces were found in; index: of the same.
-[[nodiscard]] FoundHandles find_handles(const PointCloud& cloud, const PointIndex& index,
+/// cloud: every point of the workspace, that the surfaces were found in; depth_map: of the same.
+[[nodiscard]] FoundHandles find_handles(const PointCloud& cloud, const DepthMap& depth_map,
                                         const Surfaces& surfaces, const Gripper& gripper,
                                         const DetectConfig& config);
 

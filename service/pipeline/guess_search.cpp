@@ -15,7 +15,6 @@
 namespace graspd {
 namespace {
 
-constexpr float kPointCell = 0.02f;  // of the grid for box queries [m]
 // Stray points a volume may have: counts are absolute, noise does not scale.
 constexpr int kSparseTolerance = 2, kPointTolerance = 4;
 constexpr int kMinSparse = 6, kMinPoints = 12;  // of the object between the jaws
@@ -192,9 +191,6 @@ void SearchResult::count(std::int32_t segment, Failure failure) {
   ++failures[static_cast<std::size_t>(failure)];
 }
 
-PointIndex::PointIndex(const PointCloud& cloud, const ImagePixels& pixels)
-    : depth_map(cloud, pixels), query(cloud, kPointCell) {}
-
 GuessSearch::GuessSearch(const CheckedScene& scene, const Objects& objects, const Gripper& gripper,
                          const DetectConfig& config)
     : guess_{objects, points_by_object(objects)},
@@ -210,7 +206,7 @@ GuessSearch::GuessSearch(const CheckedScene& scene, const Objects& objects, cons
               scene.surfaces.normals,
               scene.far_sides.voxel_of_sparse,
               scene.surfaces.support,
-              scene.index.depth_map,
+              scene.depth_map,
               scene.surfaces.voxel_of_point,
               kSparseTolerance,
               kMinSparse,
@@ -218,12 +214,12 @@ GuessSearch::GuessSearch(const CheckedScene& scene, const Objects& objects, cons
               &scene.far_sides,
               &scene.surfaces.segments},
       points_{scene.cloud,
-              scene.index.query,
+              scene.surfaces.points,
               objects.of_point,
               scene.surfaces.normals,
               scene.far_sides.voxel_of_point,
               scene.surfaces.support,
-              scene.index.depth_map,
+              scene.depth_map,
               scene.surfaces.voxel_of_point,
               kPointTolerance,
               kMinPoints,

@@ -16,18 +16,10 @@
 
 namespace graspd {
 
-/// What finding points in boxes and behind others needs of every point of the workspace.
-struct PointIndex {
-  DepthMap depth_map;
-  BoxQuery query;
-
-  explicit PointIndex(const PointCloud& cloud, const ImagePixels& pixels = {});
-};
-
 /// The cloud in all resolutions. References must outlive it.
 struct CheckedScene {
   const PointCloud& cloud;
-  const PointIndex& index;
+  const DepthMap& depth_map;  ///< of the cloud
   const Surfaces& surfaces;
   const FarSides& far_sides;
 };

@@ -106,9 +106,9 @@ HandleSearch::HandleSearch(const SearchInput& input, const Gripper& gripper, con
 
 std::pmr::vector<HandleSearch::Seed> HandleSearch::spread_seeds(std::span<const std::uint32_t> points) const {
   std::pmr::vector<Seed> seeds;
-  for (const std::uint32_t k : thin_out(points_at(in_.cloud, points), config_.seed_spacing_m)) {
-    const std::int32_t s = in_.segments.of_point[points[k]];
-    if (s >= 0 && wanted_[static_cast<std::size_t>(s)] != 0) seeds.push_back({points[k], {}});
+  for (const std::uint32_t p : thin_out(in_.cloud, points, config_.seed_spacing_m)) {
+    const std::int32_t s = in_.segments.of_point[p];
+    if (s >= 0 && wanted_[static_cast<std::size_t>(s)] != 0) seeds.push_back({p, {}});
   }
   const NearPoints object(in_.cloud, points);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, seeds.size(), 16), [&](const auto& range) {

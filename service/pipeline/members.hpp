@@ -4,6 +4,7 @@
 #pragma once
 #include <cstdint>
 #include <memory_resource>
+#include <numeric>
 #include <vector>
 
 #include "service/pipeline/point_kernels.hpp"
@@ -18,10 +19,12 @@ namespace graspd {
   return found;
 }
 
-/// Those with a mark of 0, ascending.
-[[nodiscard]] inline RawVector<std::uint32_t> unmarked(const std::pmr::vector<std::uint8_t>& marks) {
-  RawVector<std::uint32_t> found(marks.size() + kPointPadding);
-  found.resize(point_kernels().list_unmarked(marks.data(), marks.size(), found.data()));
+/// Those of n with a mark of 0, ascending; all of them where there are no marks.
+[[nodiscard]] inline RawVector<std::uint32_t> unmarked(const std::pmr::vector<std::uint8_t>& marks,
+                                                       std::size_t n) {
+  RawVector<std::uint32_t> found(n + kPointPadding);
+  if (marks.empty()) std::iota(found.begin(), found.end(), 0u);
+  found.resize(marks.empty() ? n : point_kernels().list_unmarked(marks.data(), marks.size(), found.data()));
   return found;
 }
 

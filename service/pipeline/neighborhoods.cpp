@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "service/pipeline/members.hpp"
@@ -155,13 +154,6 @@ struct Workspace {
   ListStorage lists;
 };
 
-RawVector<std::uint32_t> points_to_find(std::size_t n, const std::pmr::vector<std::uint8_t>& skip) {
-  if (!skip.empty()) return unmarked(skip);
-  RawVector<std::uint32_t> all(n);
-  std::iota(all.begin(), all.end(), 0u);
-  return all;
-}
-
 /// Sets the points of a cell whose neighbourhoods are wanted.
 std::span<const std::uint32_t> wanted_points(std::span<const std::uint32_t> cell,
                                              const std::pmr::vector<std::uint8_t>& skip,
@@ -190,7 +182,7 @@ Neighborhoods NeighborhoodSearch::find(const std::pmr::vector<std::uint8_t>& ski
   Neighborhoods result;
   result.lists_.resize(cloud_.size());
   std::fill(result.lists_.begin(), result.lists_.end(), NeighborList{});
-  result.points_ = points_to_find(cloud_.size(), skip);
+  result.points_ = unmarked(skip, cloud_.size());
   constexpr std::size_t kCellsPerChunk = 128;
   const std::size_t num_chunks = (order_.num_cells() + kCellsPerChunk - 1) / kCellsPerChunk;
   const float radius_squared = radius_m_ * radius_m_;

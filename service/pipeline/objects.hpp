@@ -30,8 +30,6 @@ struct ObjectsConfig {
   }
 };
 
-inline constexpr std::int32_t kSupportObject = -2;  ///< of the points of the support, which are no object's
-
 struct Objects {
   int num_objects = 0;
   std::pmr::vector<std::int32_t> of_segment;  ///< object of each segment

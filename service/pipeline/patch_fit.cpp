@@ -186,11 +186,9 @@ void shift(LocalPoints& local, float f, float z) {
 }
 
 BandTags band_tags(const SceneView& scene, const Candidate& candidate, float reach_m) {
-  // Where the support is in the way, the fingers go less deep: it does not widen the patch.
   return {scene.object_of_voxel.data(),
           scene.voxel.data(),
           candidate.object,
-          kSupportObject,
           -reach_m,
           kBin,
           std::min(static_cast<int>(2 * reach_m / kBin) + 1, BinSet::kMostBins)};

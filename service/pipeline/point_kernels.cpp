@@ -223,7 +223,7 @@ void tag_band(const BandTags& tags, const BandPoints& points, std::int32_t* own,
   for (std::size_t k = 0; k < points.size; ++k) {
     const std::int32_t object = tags.object_of_voxel[tags.voxel_of_point[points.index[k]]], bin = marks[k];
     own[k] = object == tags.object ? 1 : 0;
-    const bool has_entry = object != tags.left_out && bin >= 0 && bin < tags.num_bins;
+    const bool has_entry = bin >= 0 && bin < tags.num_bins;
     marks[k] = has_entry ? bin + own[k] * stride : tags.no_mark();
   }
 }

@@ -98,8 +98,8 @@ struct BandPoints {
 struct BandTags {
   const std::int32_t* object_of_voxel;
   const std::uint32_t* voxel_of_point;
-  std::int32_t object, left_out;  ///< points of left_out take no part in the profile
-  float first, bin;               ///< where bin 0 begins, and the length of each [m]
+  std::int32_t object;
+  float first, bin;  ///< where bin 0 begins, and the length of each [m]
   std::int32_t num_bins;
 
   /// From the mark of a bin for points of others to the one for the object's: the bins, rounded up to whole

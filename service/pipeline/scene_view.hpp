@@ -20,8 +20,8 @@ namespace graspd {
 /// after the cloud's.
 struct SceneView {
   const PointCloud& cloud;
-  const BoxQuery& query;
-  std::span<const std::int32_t> object_of_voxel;  ///< kSupportObject, or -1
+  const BoxQuery& query;                          ///< the points that are not the support's
+  std::span<const std::int32_t> object_of_voxel;  ///< negative: none
   const Normals& normals;                         ///< of the voxels
   /// Of each point; of those of far sides, one of the same object.
   std::span<const std::uint32_t> voxel;

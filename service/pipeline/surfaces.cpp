@@ -2,17 +2,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/pipeline/surfaces.hpp"
 
+#include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 
 #include <utility>
 
 #include "service/pipeline/leftovers.hpp"
+#include "service/pipeline/members.hpp"
 #include "service/pipeline/thin_out.hpp"
 
 namespace graspd {
 namespace {
 
-constexpr float kQueryCell = 0.03f;     // of the grid for box queries [m]
+constexpr float kPointCell = 0.02f;     // of the grid for box queries [m]
+constexpr float kSparseCell = 0.03f;    // of that of sparse voxels [m]
 constexpr float kSparseLeaves = 1.33f;  // between the voxels of first looks: with more, objects are missed
 
 /// The support's points, which have no neighbourhoods, have the plane's normal.
@@ -20,15 +23,6 @@ Normals surface_normals(const PointCloud& cloud, const Neighborhoods& neighborho
                         const std::optional<Support>& support) {
   return support ? estimate_normals(cloud, neighborhoods, support->plane.normal)
                  : estimate_normals(cloud, neighborhoods);
-}
-
-void mark_support(const std::optional<Support>& found, std::pmr::vector<std::int32_t>& object_of_point) {
-  if (!found) return;
-  const Support& support = *found;
-  const std::uint8_t* is_support = support.is_support.data();
-  std::int32_t* object = object_of_point.data();
-  for (std::size_t i = 0; i < object_of_point.size(); ++i)
-    object[i] = is_support[i] != 0 ? kSupportObject : object[i];
 }
 
 /// Takes the walls of a container out of the labels and the segments. Returns 1 for each point of the support
@@ -45,10 +39,24 @@ std::pmr::vector<std::uint8_t> take_out_container(const DetectConfig& config, La
   return is_fixed;
 }
 
-SparseVoxels spread_thinly(const PointCloud& voxels, float spacing_m) {
-  const std::pmr::vector<std::uint32_t> chosen = thin_out(voxels, spacing_m);
+/// The points that are not the support's: how far fingers may go to it is told by its plane, not by points
+/// that scatter about it.
+BoxQuery query_above(const PointCloud& cloud, const Surfaces& s) {
+  if (!s.support) return {cloud, kPointCell};
+  std::pmr::vector<std::uint8_t> is_support(cloud.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cloud.size(), 16384), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i != range.end(); ++i)
+      is_support[i] = s.support->is_support[s.voxel_of_point[i]];
+  });
+  return {cloud, order_by_cell(cloud, unmarked(is_support, cloud.size()), kPointCell)};
+}
+
+SparseVoxels spread_thinly(const PointCloud& voxels, const std::pmr::vector<std::uint8_t>& is_support,
+                           float spacing_m) {
+  const std::pmr::vector<std::uint32_t> chosen =
+      thin_out(voxels, unmarked(is_support, voxels.size()), spacing_m);
   const PointCloud cloud = points_at(voxels, chosen);
-  CellOrder order = order_by_cell(cloud, kQueryCell);
+  CellOrder order = order_by_cell(cloud, kSparseCell);
   SparseVoxels sparse;
   sparse.spacing_m = spacing_m;
   // In the query's own order, so that what is known of neighbours is near in memory.
@@ -77,8 +85,6 @@ void find_objects(const Neighborhoods& neighborhoods, const DetectConfig& config
   s.objects = group_segments(s.cloud, s.normals, neighborhoods, s.segments,
                              is_fixed.empty() ? is_support : is_fixed, config.objects);
   s.wholes = merge_objects(s.cloud, s.normals, neighborhoods, s.objects, config.objects);
-  mark_support(s.support, s.objects.of_point);
-  mark_support(s.support, s.wholes.of_point);
   done("objects");
 }
 
@@ -107,8 +113,8 @@ Surfaces find_surfaces(const PointCloud& cloud, const DetectConfig& config, cons
   }
   done("smoothing");
   tbb::parallel_invoke(
-      [&] { s.sparse = spread_thinly(s.cloud, kSparseLeaves * config.downsample.leaf_size_m); },
-      [&] { find_objects(neighborhoods, config, done, s); });
+      [&] { s.sparse = spread_thinly(s.cloud, is_support, kSparseLeaves * config.downsample.leaf_size_m); },
+      [&] { s.points = query_above(cloud, s); }, [&] { find_objects(neighborhoods, config, done, s); });
   return s;
 }
 

@@ -28,8 +28,9 @@ struct SparseVoxels {
 /// Everything that is known of the voxels' surfaces; vectors have one element a voxel.
 struct Surfaces {
   PointCloud cloud;
-  SparseVoxels sparse;
+  SparseVoxels sparse;                      ///< but for the support's
   RawVector<std::uint32_t> voxel_of_point;  ///< for each point before downsampling
+  BoxQuery points;                          ///< those before downsampling, but for the support's
   Normals normals;
   std::pmr::vector<std::uint8_t> is_edge;
   std::optional<Support> support;

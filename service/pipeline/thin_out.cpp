@@ -6,8 +6,9 @@
 
 namespace graspd {
 
-std::pmr::vector<std::uint32_t> thin_out(const PointCloud& cloud, float spacing_m) {
-  const CellOrder order = order_by_cell(cloud, spacing_m);
+std::pmr::vector<std::uint32_t> thin_out(const PointCloud& cloud, std::span<const std::uint32_t> indices,
+                                         float spacing_m) {
+  const CellOrder order = order_by_cell(cloud, indices, spacing_m);
   std::pmr::vector<std::uint32_t> chosen(order.num_cells());
   point_kernels().find_middles(order.of(cloud, 0, order.num_cells()), chosen.data());
   return chosen;

@@ -90,7 +90,7 @@ void number_cells(const PointKernels& kernels, Block& b) {
 }
 
 void tag_band(const PointKernels& kernels, Block& b) {
-  const BandTags tags{b.object.data(), b.index.data(), 1, 2, -0.1f, 0.003f, 67};
+  const BandTags tags{b.object.data(), b.index.data(), 1, -0.1f, 0.003f, 67};
   kernels.tag_band(tags, b.band(), b.own.data(), b.bins.data());
   benchmark::DoNotOptimize(b.bins.data());
 }

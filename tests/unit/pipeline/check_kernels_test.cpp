@@ -92,7 +92,7 @@ TEST(CheckKernels, SumOverPointsWeighedByAProfile) {
 }
 
 TEST(CheckKernels, TagBandsAndKeepDepths) {
-  constexpr std::int32_t kOwn = 3, kLeftOut = -2;
+  constexpr std::int32_t kOwn = 3;
   for (const std::size_t size : {0, 5, 8, 21, 400}) {
     Points points(size, 5);
     constexpr std::uint32_t kVoxels = 41;
@@ -101,7 +101,7 @@ TEST(CheckKernels, TagBandsAndKeepDepths) {
     std::pmr::vector<std::uint32_t> voxel_of_point(size + 1000 + kPointPadding);
     for (std::uint32_t i = 0; i < voxel_of_point.size(); ++i) voxel_of_point[i] = 5 * i % kVoxels;
     const BandPoints band{points.x.data(), points.y.data(), points.index.data(), size};
-    const BandTags tags{object_of_voxel.data(), voxel_of_point.data(), kOwn, kLeftOut, -0.8f, 0.01f, 150};
+    const BandTags tags{object_of_voxel.data(), voxel_of_point.data(), kOwn, -0.8f, 0.01f, 150};
     for (const Form& form : forms()) {
       std::pmr::vector<std::int32_t> own(size + kPointPadding, -9), marks(own);
       form.kernels->tag_band(tags, band, own.data(), marks.data());
@@ -110,7 +110,7 @@ TEST(CheckKernels, TagBandsAndKeepDepths) {
         const std::int32_t object = object_of_voxel[voxel_of_point[points.index[k]]];
         EXPECT_EQ(own[k], object == kOwn ? 1 : 0);
         const auto bin = static_cast<std::int32_t>(std::floor((points.x[k] + 0.8f) / 0.01f));
-        const bool has_none = object == kLeftOut || bin < 0 || bin >= 150;
+        const bool has_none = bin < 0 || bin >= 150;
         EXPECT_EQ(marks[k], has_none ? 384 : bin + 192 * own[k]) << form.name << " " << points.x[k];
         if (object == kOwn && points.x[k] >= -0.5f && points.x[k] <= 0.25f && points.y[k] >= -0.7f)
           expected.push_back(points.y[k]);

@@ -12,8 +12,6 @@
 namespace graspd {
 namespace {
 
-constexpr float kCell = 0.015f;  // of the grid for box queries [m]
-
 float radians(float degrees) {
   return degrees * std::numbers::pi_v<float> / 180;
 }
@@ -24,9 +22,8 @@ CheckScene::CheckScene(const AnalyticScene& scene)
     : cloud_(finite_points(render(scene).cloud)),
       surfaces_(find_surfaces(cloud_, {}, [](std::string_view) {})),
       depth_map_(cloud_),
-      query_(cloud_, kCell),
       view_{cloud_,
-            query_,
+            surfaces_.points,
             surfaces_.objects.of_point,
             surfaces_.normals,
             surfaces_.voxel_of_point,
@@ -70,9 +67,9 @@ std::array<Contact, 2> CheckScene::contacts(const Candidate& candidate, const Gr
   const float half_e = 0.5f * gripper.finger_thickness_m, l = gripper.grasp_depth_m;
   const HandleCheckConfig limits;
   LocalPoints local;
-  query_.find(candidate.position, candidate.rotation,
-              {-half_e, -gripper.aperture_m, l - gripper.finger_length_m}, {half_e, gripper.aperture_m, l},
-              local);
+  surfaces_.points.find(candidate.position, candidate.rotation,
+                        {-half_e, -gripper.aperture_m, l - gripper.finger_length_m},
+                        {half_e, gripper.aperture_m, l}, local);
   std::pmr::vector<std::uint32_t> between;
   std::pmr::vector<Eigen::Vector2f> profile;
   float low = 1, high = -1, top = 1;

@@ -39,7 +39,6 @@ class CheckScene {
   PointCloud cloud_;
   Surfaces surfaces_;
   DepthMap depth_map_;
-  BoxQuery query_;
   SceneView view_;
 };
 

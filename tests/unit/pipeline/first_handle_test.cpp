@@ -22,10 +22,10 @@ class Search {
  public:
   explicit Search(const PointCloud& cloud)
       : kept_(filter_workspace(cloud, {})),
-        index_(kept_.cloud, kept_.pixels),
+        depth_map_(kept_.cloud, kept_.pixels),
         surfaces_(find_surfaces(kept_.cloud, {}, [](std::string_view) {})),
-        far_sides_(find_far_sides(surfaces_, index_.depth_map)),
-        search_({kept_.cloud, index_, surfaces_, far_sides_}, surfaces_.objects, gripper_, config_) {
+        far_sides_(find_far_sides(surfaces_, depth_map_)),
+        search_({kept_.cloud, depth_map_, surfaces_, far_sides_}, surfaces_.objects, gripper_, config_) {
     result_.segments.resize(surfaces_.segments.list.size());
     search_.run(std::pmr::vector<std::uint8_t>(surfaces_.segments.list.size(), 1), buffers_, result_);
     first_ = first_handles(result_.handles, surfaces_, gripper_, config_.check, buffers_);
@@ -44,7 +44,7 @@ class Search {
   Gripper gripper_;
   DetectConfig config_;
   WorkspaceResult kept_;
-  PointIndex index_;
+  DepthMap depth_map_;
   Surfaces surfaces_;
   FarSides far_sides_;
   GuessSearch search_;

@@ -168,8 +168,7 @@ TEST(Objects, PointsOfEachObjectAscendingAndNoOthers) {
     objects.num_objects = 4;  // number 2 has no points
     std::pmr::vector<std::pmr::vector<std::uint32_t>> expected(4);
     for (int i = 0; i < size; ++i) {
-      const int object =
-          i % 24 < 8 ? kSupportObject : std::array{-1, 0, 3, 1, 1}[static_cast<std::size_t>(i % 5)];
+      const int object = i % 24 < 8 ? -1 : std::array{-1, 0, 3, 1, 1}[static_cast<std::size_t>(i % 5)];
       objects.of_point.push_back(object);
       if (object >= 0) expected[static_cast<std::size_t>(object)].push_back(static_cast<std::uint32_t>(i));
     }

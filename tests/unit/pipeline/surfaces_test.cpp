@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "service/pipeline/workspace_filter.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/scene_gallery.hpp"
@@ -36,8 +38,33 @@ TEST(Surfaces, ThreeObjectsAndNoPointOfTheTableInThem) {
   for (std::size_t i = 0; i < s.cloud.size(); ++i)
     if (s.support->is_support[i]) {
       EXPECT_EQ(s.segments.of_point[i], -1);
-      EXPECT_EQ(s.objects.of_point[i], kSupportObject);
+      EXPECT_LT(s.objects.of_point[i], 0);
     }
+}
+
+/// Those found in a box around everything, ascending.
+std::pmr::vector<std::uint32_t> all_of(const BoxQuery& query) {
+  LocalPoints found;
+  query.find({0, 0, 0}, Eigen::Matrix3f::Identity(), {-9, -9, -9}, {9, 9, 9}, found);
+  std::pmr::vector<std::uint32_t> indices(found.index.begin(), found.index.end());
+  std::sort(indices.begin(), indices.end());
+  return indices;
+}
+
+TEST(Surfaces, BoxesHoldAllPointsButTheSupports) {
+  for (const bool has_support : {true, false}) {
+    DetectConfig config;
+    config.support.enabled = has_support;
+    const Surfaces s = surfaces_of(render(three_objects()).cloud, config);
+    ASSERT_EQ(s.support.has_value(), has_support);
+    std::pmr::vector<std::uint32_t> others;
+    for (std::uint32_t i = 0; i < s.voxel_of_point.size(); ++i)
+      if (!has_support || s.support->is_support[s.voxel_of_point[i]] == 0) others.push_back(i);
+    EXPECT_EQ(all_of(s.points), others);
+    EXPECT_EQ(all_of(s.sparse.query).size(), s.sparse.voxel.size());
+    for (const std::uint32_t voxel : s.sparse.voxel)
+      EXPECT_TRUE(!has_support || s.support->is_support[voxel] == 0);
+  }
 }
 
 TEST(Surfaces, WithoutASupportTheTableIsASegment) {
