@@ -118,14 +118,14 @@ class Extent {
 };
 
 /// Points that are seen through the plane: behind it, on lines of sight that pass it where its own points
-/// are. A support hides what is behind it; beside it the floor may be seen.
+/// are. A support hides what is behind it; beside it the floor may be seen. Counts no further than enough.
 int seen_through(const Sample& sample, const Plane& plane, const PlaneLimits& limits,
-                 const Eigen::Vector3f& viewpoint) {
+                 const Eigen::Vector3f& viewpoint, int enough) {
   constexpr float kBehind = 3;  // times the thickness
   const Extent extent(sample, plane, limits, viewpoint);
   const float from = plane.height(viewpoint);
   int num = 0;
-  for (std::size_t i = 0; i < sample.points.size(); ++i) {
+  for (std::size_t i = 0; i < sample.points.size() && num < enough; ++i) {
     const Eigen::Vector3f p = sample.points.point(i);
     const float height = plane.height(p);
     if (height < -kBehind * limits.thickness_m &&
@@ -145,6 +145,19 @@ std::optional<Plane> plane_through(const Sample& sample, const std::array<std::s
   for (const std::size_t i : at)
     if (normal.dot(sample.normals.at(i)) < min_cosine) return std::nullopt;
   return Plane{normal, -normal.dot(a)};
+}
+
+Eigen::Vector3f middle_of(const PointCloud& points) {
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  for (std::size_t i = 0; i < points.size(); ++i) sum += points.point(i);
+  return sum / static_cast<float>(points.size());
+}
+
+/// Whether least squares over the points of either would end in the same plane.
+bool are_alike(const Plane& a, const Plane& b, const PlaneLimits& limits, const Eigen::Vector3f& middle) {
+  constexpr float kSameCosine = 0.9995f;  // 1.8 degrees
+  return a.normal.dot(b.normal) > kSameCosine &&
+         std::abs(a.height(middle) - b.height(middle)) < limits.thickness_m;
 }
 
 /// Points of the sample that belong to the plane.
@@ -180,9 +193,15 @@ std::optional<Plane> find_plane(CoarseSurface& coarse, int num_hypotheses, const
   });
   std::optional<Plane> best;
   int best_score = 0;
+  std::pmr::vector<Plane> tried;
+  const Eigen::Vector3f middle = middle_of(sample.points);
   for (const std::size_t i : order) {
     if (num_on[i] <= best_score) break;
-    const int score = num_on[i] - seen_through(sample, planes[i], limits, viewpoint);
+    if (std::any_of(tried.begin(), tried.end(),
+                    [&](const Plane& plane) { return are_alike(plane, planes[i], limits, middle); }))
+      continue;
+    tried.push_back(planes[i]);
+    const int score = num_on[i] - seen_through(sample, planes[i], limits, viewpoint, num_on[i] - best_score);
     if (score <= best_score) continue;
     best_score = score;
     best = planes[i];
