@@ -76,11 +76,12 @@ Eigen::Vector3f Chooser::preferred_approach() const {
 /// The log odds, and what decides between handles that are about equally good. The weights make the
 /// difference between two ways to take an object larger than what noise does to their scores.
 float Chooser::worth(const FoundHandle& found) const {
-  constexpr float kStraight = 2.8f, kWide = 2.8f, kInDepth = 1.4f;
+  constexpr float kStraight = 2.8f, kWide = 2.8f, kInDepth = 1.4f, kOffMiddle = 4.0f;
   const Handle& handle = found.ranked.handle;
   return log_odds(handle.score) + kStraight * handle.rotation.col(2).dot(preferred_approach()) -
          kWide * handle.width_m / gripper_.aperture_m -
-         kInDepth * std::abs(handle.rotation.col(1).dot(shape_.sight()));
+         kInDepth * std::abs(handle.rotation.col(1).dot(shape_.sight())) -
+         kOffMiddle * (1 - found.margins.central);
 }
 
 std::optional<FoundHandle> Chooser::as_handle(const Candidate& candidate, const CheckResult& result) const {
@@ -89,8 +90,9 @@ std::optional<FoundHandle> Chooser::as_handle(const Candidate& candidate, const 
   found.candidate = candidate;
   found.ranked.handle = result.handle;
   found.margins = result.margins;
-  found.margins.central = centrality(result.handle, shape_.center());
+  found.margins.central = centrality(result.handle, shape_.center(), support_);
   found.ranked.handle.score = score(found.margins);
+  found.ranked.central = found.margins.central;
   return found;
 }
 

@@ -31,8 +31,10 @@ FoundHandle scored(const CheckResult& result, const Guess& guess, const Candidat
                    const SceneView& scene, const SceneView& sparse) {
   const int object = candidate.object;
   FoundHandle found{{result.handle, object}, result.margins, &scene, &sparse, &guess, candidate};
-  found.margins.central = centrality(result.handle, guess.objects.center[static_cast<std::size_t>(object)]);
+  found.margins.central =
+      centrality(result.handle, guess.objects.center[static_cast<std::size_t>(object)], scene.support);
   found.ranked.handle.score = score(found.margins);
+  found.ranked.central = found.margins.central;
   return found;
 }
 
@@ -173,10 +175,15 @@ HandleCheckConfig coarse_limits(HandleCheckConfig limits) {
 
 }  // namespace
 
-float centrality(const Handle& handle, const Eigen::Vector3f& object_center) {
-  constexpr float kFalloff = 0.06f;
-  const float off = handle.rotation.col(0).dot(object_center - handle.position) / kFalloff;
-  return std::exp(-off * off);
+float centrality(const Handle& handle, const Eigen::Vector3f& object_center,
+                 const std::optional<Support>& support) {
+  constexpr float kLittle = 0.03f, kFalloff = 0.04f, kPadMiddle = 0.015f;  // [m]
+  const Eigen::Matrix3f& axes = handle.rotation;
+  const Eigen::Vector3f from_pads = object_center - handle.position - kPadMiddle * axes.col(2);
+  const Eigen::Vector3f across =
+      support ? Eigen::Vector3f(support->plane.normal.cross(axes.col(1))) : Eigen::Vector3f(axes.col(0));
+  const float lever = std::max(0.0f, std::abs(across.dot(from_pads)) - kLittle) / kFalloff;
+  return std::exp(-lever * lever);
 }
 
 void SearchResult::count(std::int32_t segment, Failure failure) {

@@ -59,9 +59,12 @@ struct SearchResult {
   void count(std::int32_t segment, Failure failure);
 };
 
-/// How near the jaws of a handle are to the middle of the visible object, in [0, 1]: off the middle the
-/// object turns between the jaws. The margin falls off over 6 cm along the major axis.
-[[nodiscard]] float centrality(const Handle& handle, const Eigen::Vector3f& object_center);
+/// How near the jaws of a handle are to the middle of the visible object, in [0, 1]: off the middle its
+/// weight turns it about the closing axis. What counts is the lever across that axis and the support's
+/// normal, along the major axis where no support is known. The first 3 cm do not count, since the middle of
+/// what is seen is not that of the whole; the margin falls off over the next 4.
+[[nodiscard]] float centrality(const Handle& handle, const Eigen::Vector3f& object_center,
+                               const std::optional<Support>& support);
 
 class GuessSearch {
  public:

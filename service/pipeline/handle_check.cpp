@@ -273,13 +273,21 @@ bool Check::check_square(const Contact& low, const Contact& high, bool round) {
   return off <= radians(most_off);
 }
 
-/// How far the walls on both sides are from the angle at which jaws with a friction coefficient of 0.5 slip
-/// off. Of a round profile the fitted circle tells better where its widest place is.
-float grip_margin(const Contact& low, const Contact& high) {
+/// How far the walls on both sides lean outwards, down to the fingertips: of a round profile the fitted
+/// circle tells it better than normals do [rad].
+float lean(const Contact& low, const Contact& high, const ContactInput& in) {
+  float sine = 0;
+  if (in.circle)
+    sine = (in.circle->center.y() - in.depth_m) / in.circle->radius;
+  else if (!low.normal.isZero() && !high.normal.isZero())
+    sine = -0.5f * (low.normal.z() + high.normal.z());
+  return std::asin(std::clamp(sine, 0.0f, 1.0f));
+}
+
+/// How far that is from the angle at which jaws with a friction coefficient of 0.5 slip off.
+float grip_margin(float lean_rad) {
   constexpr float kHolds = 18, kSlips = 27;  // [degrees]
-  if (low.normal.isZero() || high.normal.isZero()) return 1;
-  const float lean = std::asin(std::clamp(-0.5f * (low.normal.z() + high.normal.z()), 0.0f, 1.0f));
-  return (radians(kSlips) - lean) / radians(kSlips - kHolds);
+  return (radians(kSlips) - lean_rad) / radians(kSlips - kHolds);
 }
 
 Failure Check::check_contacts() {
@@ -313,7 +321,7 @@ Failure Check::check_contacts() {
   const Contact high = find_contact(input, 1, end_[1], finger_hidden_share(1, Hidden::kAtAll));
   if (high.kind == ContactKind::kNone) return Failure::kContact;
   margins_.contact = {low.kind, high.kind};
-  if (!input.circle) margins_.grip = grip_margin(low, high);
+  margins_.grip = grip_margin(lean(low, high, input));
   if (!check_square(low, high, input.circle.has_value())) return Failure::kContact;
   set_width_from(low, high);
   margins_.width = (gripper_.aperture_m - handle_.width_m) / (kAmpleRoom * gripper_.aperture_m);

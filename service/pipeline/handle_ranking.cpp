@@ -43,8 +43,9 @@ struct Chosen {
   float score;
 };
 
-/// Adds the best places of one object, after its leader each the best of those left with regard to score and
-/// distance from the ones before: a handle elsewhere on the object is worth more than the same again.
+/// Adds the best places of one object, after its leader each the best of those left with regard to score,
+/// distance from the ones before and from the middle: a handle elsewhere on the object is worth more than the
+/// same again, but off its middle the object turns between the jaws.
 void choose_places(const std::pmr::vector<RankedHandle>& handles, std::size_t leader,
                    std::pmr::vector<std::size_t> left, const HandleRankingConfig& config,
                    std::pmr::vector<const Handle*>& kept, std::pmr::vector<Chosen>& chosen) {
@@ -65,7 +66,8 @@ void choose_places(const std::pmr::vector<RankedHandle>& handles, std::size_t le
     for (const std::size_t i : left) {
       const float worth = i == leader
                               ? kAboveAll
-                              : handles[i].handle.score * novelty(handles[i].handle, own, config.spread_m);
+                              : handles[i].handle.score * novelty(handles[i].handle, own, config.spread_m) *
+                                    handles[i].central;
       if (worth <= best_worth) continue;
       best_worth = worth;
       best = i;

@@ -40,6 +40,7 @@ struct RankedHandle {
   Handle handle;
   int object = -1;
   bool is_first = false;  ///< of its object, whatever the others score; its score is final
+  float central = 1;      ///< HandleMargins::central
 };
 
 /// Sets the final scores of the handles with these indices; each is asked for once.
@@ -47,7 +48,8 @@ using SettleScores =
     std::function<void(const std::pmr::vector<std::size_t>& which, std::pmr::vector<RankedHandle>& handles)>;
 
 /// One for each distinct place, max_per_object for each object: its first, which is its best where none is
-/// marked, and then those that score best with regard to how far they are from the ones before. What the
+/// marked, and then those that score best with regard to how far they are from the ones before and from the
+/// object's middle. What the
 /// others score beyond the first is noise: they get its score. Best score first; ties keep the order of the
 /// input, but for the first ones, which come before others. settle: scores are upper bounds, and it is asked
 /// for the final ones of those handles that the result depends on; without, they are final.

@@ -7,6 +7,8 @@
 #include <memory_resource>
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <set>
 
 #include "service/pipeline/workspace_filter.hpp"
@@ -66,6 +68,29 @@ TEST(GuessSearch, PlacesFarApartHaveTheirTurns) {
     high = std::max(high, found.ranked.handle.position.x());
   }
   EXPECT_GT(high - low, 0.5f * kLength);
+}
+
+TEST(GuessSearch, OffTheMiddleIsWhereWeightTurnsTheObjectAboutTheClosingAxis) {
+  Support table;
+  table.plane = {Eigen::Vector3f::UnitZ(), 0};
+  const auto central = [](const Eigen::Vector3f& closing, const Eigen::Vector3f& approach,
+                          const Eigen::Vector3f& from_pads, const std::optional<Support>& support) {
+    constexpr float kPadMiddle = 0.015f;
+    Handle handle;
+    handle.rotation << closing.cross(approach), closing, approach;
+    return centrality(handle, kPadMiddle * approach + from_pads, support);
+  };
+  const Eigen::Vector3f x = Eigen::Vector3f::UnitX(), y = Eigen::Vector3f::UnitY(),
+                        z = Eigen::Vector3f::UnitZ();
+  constexpr float kLittle = 0.03f, kOff = 0.07f;
+  const float less = std::exp(-1.0f), tolerance = 1e-5f;
+  EXPECT_EQ(central(y, -z, 0.99f * kLittle * x, table), 1) << "what is seen may be a part only";
+  EXPECT_NEAR(central(y, -z, kOff * x, table), less, tolerance) << "from above";
+  EXPECT_NEAR(central(y, -z, kOff * y - 0.2f * z, table), 1, tolerance);
+  EXPECT_NEAR(central(x, y, kOff * y, table), less, tolerance) << "from the side";
+  EXPECT_NEAR(central(x, y, kOff * x - 0.2f * z, table), 1, tolerance) << "the neck of a bottle";
+  EXPECT_NEAR(central(z, y, kOff * y, table), 1, tolerance) << "between jaws above each other";
+  EXPECT_NEAR(central(x, y, kOff * z, std::nullopt), less, tolerance) << "where is up is not known";
 }
 
 TEST(FirstHandle, NothingFoundNothingFirst) {

@@ -87,6 +87,20 @@ TEST(HandleRanking, HalfATurnAboutTheApproachIsTheSameGrip) {
   EXPECT_EQ(count(turned(180, Eigen::Vector3f::UnitY())), 2u);
 }
 
+TEST(HandleRanking, OfTwoPlacesTheOneNearerToTheMiddle) {
+  HandleRankingConfig config = unlimited();
+  config.max_per_object = 2;
+  for (const float middle : {-0.1f, 0.1f}) {
+    std::pmr::vector<RankedHandle> handles{handle_at({0, 0, 0}, 0.9f), handle_at({-0.1f, 0, 0}, 0.8f),
+                                           handle_at({0.1f, 0, 0}, 0.8f)};
+    handles[middle < 0 ? 2 : 1].central = 0.5f;
+    const std::pmr::vector<Handle> ranked = rank_handles(handles, config);
+    ASSERT_EQ(ranked.size(), 2u);
+    EXPECT_EQ(ranked[1].position.x(), middle);
+    EXPECT_EQ(ranked[1].score, 0.8f);
+  }
+}
+
 TEST(HandleRanking, LimitsPerObjectAndInAll) {
   std::pmr::vector<RankedHandle> handles;
   for (int object = 0; object < 4; ++object)
