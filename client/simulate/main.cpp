@@ -16,6 +16,7 @@
 #include "client/common/text.hpp"
 #include "client/log/recorder.hpp"
 #include "client/simulate/simulation.hpp"
+#include "client/simulate/solids_file.hpp"
 #include "client/simulate/truth_file.hpp"
 
 namespace graspd {
@@ -32,6 +33,7 @@ struct Options {
   std::string log;
   double log_part_mb = 0;
   std::string truth;
+  std::string solids;
   std::string key_file;
   int width = 640;
   double rate_hz = 15;
@@ -90,7 +92,9 @@ void add_options(CLI::App& app, Options& o) {
 void add_output_options(CLI::App& app, Options& o) {
   auto* key = app.add_option("--key", o.key_file, "sign with the first key of this file (see graspd-keygen)");
   app.add_option("--truth", o.truth,
-                 "write what is published into this file: the objects' points, as JSON lines");
+                 "write what each frame shows into this file: the objects' points, as JSON lines");
+  app.add_option("--solids", o.solids,
+                 "write the true solids of each frame and the camera's pose into this file, as JSON lines");
   auto* output = app.add_option("-o,--output", o.output,
                                 "write labelled PCD files into this folder instead of publishing");
   auto* log =
@@ -119,14 +123,36 @@ SimulationConfig simulation_config(const Options& o) {
   return config;
 }
 
+/// The files that --truth and --solids ask for.
+class TruthOutput {
+ public:
+  explicit TruthOutput(const Options& o) {
+    if (!o.truth.empty()) truth_.emplace(o.truth);
+    if (!o.solids.empty()) solids_.emplace(o.solids);
+  }
+
+  /// frame: the simulation's last, number k.
+  void write(std::int64_t k, const Simulation& simulation, const DepthFrame& frame) {
+    if (truth_) truth_->write(k, frame);
+    if (solids_) solids_->write(k, simulation.scene(), simulation.T_world_camera(k));
+  }
+
+ private:
+  std::optional<TruthFile> truth_;
+  std::optional<SolidsFile> solids_;
+};
+
 int write_files(const CLI::App& app, const Options& o, Simulation& simulation) {
   std::filesystem::create_directories(o.output);
   const std::int64_t frames = o.frames > 0 ? o.frames : 10;
+  TruthOutput truth(o);
   std::int64_t k = 0;
   for (; k < frames && !stop_requested(); ++k) {
     const std::filesystem::path path =
         std::filesystem::path(o.output) / (o.frame_name + std::to_string(k) + ".pcd");
-    save_pcd(path, to_cloud(simulation.frame(k)));
+    const DepthFrame frame = simulation.frame(k);
+    truth.write(k, simulation, frame);
+    save_pcd(path, to_cloud(frame));
     if (isatty(STDERR_FILENO))
       std::fprintf(stderr, "\r%lld of %lld", static_cast<long long>(k + 1), static_cast<long long>(frames));
   }
@@ -149,13 +175,12 @@ int publish(const CLI::App& app, const Options& o, Simulation& simulation) {
   FramePublisher publisher(bus, o.channel);
   if (!o.key_file.empty()) publisher.sign_with(o.key_file);
   Pacer pacer(o.rate_hz);
-  std::optional<TruthFile> truth;
-  if (!o.truth.empty()) truth.emplace(o.truth);
+  TruthOutput truth(o);
   for (std::int64_t k = 0; o.frames == 0 || k < o.frames; ++k) {
     // Drawn ahead of its time, so that it goes out on time.
     const DepthFrame frame = simulation.frame(k);
     if (!pacer.next()) break;
-    if (truth) truth->write(k, frame);
+    truth.write(k, simulation, frame);
     send(publisher, o, {wall_clock_us(), k, std::pmr::string(o.frame_name)}, frame);
   }
   say(app, publisher.summary());
@@ -175,13 +200,12 @@ int write_log(const CLI::App& app, const Options& o, Simulation& simulation) {
         return true;
       },
       o.channel);
-  std::optional<TruthFile> truth;
-  if (!o.truth.empty()) truth.emplace(o.truth);
+  TruthOutput truth(o);
   const std::int64_t frames = o.frames > 0 ? o.frames : 10;
   for (std::int64_t k = 0; k < frames && !stop_requested(); ++k) {
     utime = kStartUtime + std::llround(1e6 * static_cast<double>(k) / rate_hz);
     const DepthFrame frame = simulation.frame(k);
-    if (truth) truth->write(k, frame);
+    truth.write(k, simulation, frame);
     send(publisher, o, {utime, k, std::pmr::string(o.frame_name)}, frame);
   }
   say(app, publisher.summary());
