@@ -90,9 +90,7 @@ std::optional<FoundHandle> Chooser::as_handle(const Candidate& candidate, const 
   found.candidate = candidate;
   found.ranked.handle = result.handle;
   found.margins = result.margins;
-  found.margins.central = centrality(result.handle, shape_.center(), support_);
-  found.ranked.handle.score = score(found.margins);
-  found.ranked.central = found.margins.central;
+  rate(found, shape_.center());
   return found;
 }
 

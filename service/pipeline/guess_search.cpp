@@ -31,10 +31,7 @@ FoundHandle scored(const CheckResult& result, const Guess& guess, const Candidat
                    const SceneView& scene, const SceneView& sparse) {
   const int object = candidate.object;
   FoundHandle found{{result.handle, object}, result.margins, &scene, &sparse, &guess, candidate};
-  found.margins.central =
-      centrality(result.handle, guess.objects.center[static_cast<std::size_t>(object)], scene.support);
-  found.ranked.handle.score = score(found.margins);
-  found.ranked.central = found.margins.central;
+  rate(found, guess.objects.center[static_cast<std::size_t>(object)]);
   return found;
 }
 
@@ -184,6 +181,12 @@ float centrality(const Handle& handle, const Eigen::Vector3f& object_center,
       support ? Eigen::Vector3f(support->plane.normal.cross(axes.col(1))) : Eigen::Vector3f(axes.col(0));
   const float lever = std::max(0.0f, std::abs(across.dot(from_pads)) - kLittle) / kFalloff;
   return std::exp(-lever * lever);
+}
+
+void rate(FoundHandle& found, const Eigen::Vector3f& object_center) {
+  RankedHandle& ranked = found.ranked;
+  ranked.central = found.margins.central = centrality(ranked.handle, object_center, found.scene->support);
+  ranked.handle.score = score(found.margins);
 }
 
 void SearchResult::count(std::int32_t segment, Failure failure) {

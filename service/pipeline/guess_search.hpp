@@ -66,6 +66,9 @@ struct SearchResult {
 [[nodiscard]] float centrality(const Handle& handle, const Eigen::Vector3f& object_center,
                                const std::optional<Support>& support);
 
+/// Sets what depends on where the middle of the visible object is: its margin, and the score.
+void rate(FoundHandle& found, const Eigen::Vector3f& object_center);
+
 class GuessSearch {
  public:
   /// All must outlive the search and what it finds.
