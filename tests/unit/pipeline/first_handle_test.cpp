@@ -30,13 +30,16 @@ class Search {
         search_({kept_.cloud, depth_map_, surfaces_, far_sides_}, surfaces_.objects, gripper_, config_) {
     result_.segments.resize(surfaces_.segments.list.size());
     search_.run(std::pmr::vector<std::uint8_t>(surfaces_.segments.list.size(), 1), buffers_, result_);
-    first_ = first_handles(result_.handles, surfaces_, gripper_, config_.check, buffers_);
+    first_ = first_among(result_.handles);
   }
   Search(const Search&) = delete;
   Search& operator=(const Search&) = delete;
 
   [[nodiscard]] const std::pmr::vector<FoundHandle>& found() const { return result_.handles; }
   [[nodiscard]] const std::pmr::vector<FoundHandle>& first() const { return first_; }
+  [[nodiscard]] std::pmr::vector<FoundHandle> first_among(const std::pmr::vector<FoundHandle>& found) {
+    return first_handles(found, surfaces_, gripper_, config_.check, buffers_);
+  }
   [[nodiscard]] Failure check_again(const FoundHandle& found) const {
     CheckBuffers buffers;
     return check_candidate(*found.scene, gripper_, config_.check, found.as_candidate(), buffers).failure;
@@ -128,6 +131,25 @@ TEST(FirstHandle, TakesALongBoxWithoutASupportInTheMiddle) {
   const Search search(render(scene).cloud);
   ASSERT_EQ(search.first().size(), 1u);
   EXPECT_NEAR(search.first()[0].ranked.handle.position.x(), 0, 0.004f);
+}
+
+/// The edge of a thin wall is not moved to the middle, so that it must be chosen there.
+TEST(FirstHandle, NearTheMiddleRatherThanTheOneThatScoresALittleMore) {
+  constexpr float kLittleMore = 0.02f;
+  Search search(render(on_table({standing_box(0, 0, {0.22, 0.004, 0.06})})).cloud);
+  std::pmr::vector<FoundHandle> two;
+  for (const bool at_end : {true, false}) {
+    const auto it = std::ranges::find_if(search.found(), [&](const FoundHandle& found) {
+      const float off = std::abs(found.ranked.handle.position.x());
+      return found.candidate.is_on_known_wall() && (at_end ? off > 0.07f : off < 0.04f);
+    });
+    ASSERT_NE(it, search.found().end());
+    two.push_back(*it);
+  }
+  two[0].ranked.handle.score = two[1].ranked.handle.score + kLittleMore;
+  const std::pmr::vector<FoundHandle> first = search.first_among(two);
+  ASSERT_EQ(first.size(), 1u);
+  EXPECT_LT(std::abs(first[0].ranked.handle.position.x()), 0.04f);
 }
 
 /// Over a few noisy frames of the same scene: no seed of the noise is special.
