@@ -113,6 +113,11 @@ TEST(HandleCheck, JawsThatEndShortOfTheWidestPlaceOfARoundThingAreDoubted) {
   EXPECT_GT(nearer, short_of_it);
   EXPECT_LT(nearer, 0.5f);
   EXPECT_GE(grip({0, 0, 0.12f}, -Eigen::Vector3f::UnitZ(), 0.030f), 1) << "around the whole of it";
+  // Level, where the profile is a circle: 14 mm short of its middle the walls lean by 23 degrees, of 18
+  // to 27.
+  const Eigen::Vector3f level = Eigen::Vector3f::UnitY();
+  EXPECT_NEAR(grip(front, level, 0.022f), 0.46f, 0.2f);
+  EXPECT_GE(grip(front, level, 0.030f), 1);
 }
 
 TEST(HandleCheck, TheHandDoesNotComeThroughWhatOthersHide) {
