@@ -37,14 +37,14 @@ std::optional<Eigen::Vector3f> end_direction(const SearchInput& in, const NearPo
 /// One of the points a cell, the highest.
 std::pmr::vector<std::uint32_t> highest_points(const SearchInput& in, std::span<const std::uint32_t> points,
                                                const Eigen::Vector3f& up, float cell_m) {
-  const CellOrder order = order_by_cell(points_at(in.cloud, points), cell_m);
+  const CellOrder order = order_by_cell(in.cloud, points, cell_m);
   std::pmr::vector<std::uint32_t> chosen(order.num_cells());
   for (std::size_t c = 0; c < chosen.size(); ++c) {
     const std::span<const std::uint32_t> cell = order.cell(c);
     const auto lower = [&](std::uint32_t a, std::uint32_t b) {
-      return up.dot(in.cloud.point(points[a])) < up.dot(in.cloud.point(points[b]));
+      return up.dot(in.cloud.point(a)) < up.dot(in.cloud.point(b));
     };
-    chosen[c] = points[*std::max_element(cell.begin(), cell.end(), lower)];
+    chosen[c] = *std::max_element(cell.begin(), cell.end(), lower);
   }
   return chosen;
 }
