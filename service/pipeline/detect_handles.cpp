@@ -2,12 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "service/pipeline/detect_handles.hpp"
 
-#include <tbb/parallel_invoke.h>
-
 #include <optional>
 #include <utility>
 
 #include "service/pipeline/find_handles.hpp"
+#include "service/pipeline/run_beside.hpp"
 #include "service/pipeline/surfaces.hpp"
 
 namespace graspd {
@@ -43,8 +42,8 @@ Detection detect_handles(const PointCloud& cloud, const Gripper& gripper, const 
   // Beside the surfaces, many of whose stages leave threads free.
   std::optional<DepthMap> depth_map;
   Surfaces surfaces;
-  tbb::parallel_invoke([&] { depth_map.emplace(kept.cloud, kept.pixels); },
-                       [&] { surfaces = find_surfaces(kept.cloud, config, done, kept.pixels); });
+  run_beside([&] { depth_map.emplace(kept.cloud, kept.pixels); },
+             [&] { surfaces = find_surfaces(kept.cloud, config, done, kept.pixels); });
   done("index");
   detection.points_used = static_cast<int>(surfaces.cloud.size());
   FoundHandles found = find_handles(kept.cloud, *depth_map, surfaces, gripper, config);

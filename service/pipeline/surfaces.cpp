@@ -3,12 +3,12 @@
 #include "service/pipeline/surfaces.hpp"
 
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
 
 #include <utility>
 
 #include "service/pipeline/leftovers.hpp"
 #include "service/pipeline/members.hpp"
+#include "service/pipeline/run_beside.hpp"
 #include "service/pipeline/thin_out.hpp"
 
 namespace graspd {
@@ -112,7 +112,7 @@ Surfaces find_surfaces(const PointCloud& cloud, const DetectConfig& config, cons
     s.normals = surface_normals(s.cloud, neighborhoods, s.support);
   }
   done("smoothing");
-  tbb::parallel_invoke(
+  run_beside(
       [&] { s.sparse = spread_thinly(s.cloud, is_support, kSparseLeaves * config.downsample.leaf_size_m); },
       [&] { s.points = query_above(cloud, s); }, [&] { find_objects(neighborhoods, config, done, s); });
   return s;
