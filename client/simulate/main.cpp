@@ -15,9 +15,10 @@
 #include "client/common/stop_flag.hpp"
 #include "client/common/text.hpp"
 #include "client/log/recorder.hpp"
+#include "client/simulate/line_file.hpp"
 #include "client/simulate/simulation.hpp"
-#include "client/simulate/solids_file.hpp"
-#include "client/simulate/truth_file.hpp"
+#include "client/simulate/solids_line.hpp"
+#include "client/simulate/truth_line.hpp"
 
 namespace graspd {
 namespace {
@@ -133,13 +134,12 @@ class TruthOutput {
 
   /// frame: the simulation's last, number k.
   void write(std::int64_t k, const Simulation& simulation, const DepthFrame& frame) {
-    if (truth_) truth_->write(k, frame);
-    if (solids_) solids_->write(k, simulation.scene(), simulation.T_world_camera(k));
+    if (truth_) truth_->write(truth_line(k, frame));
+    if (solids_) solids_->write(solids_line(k, simulation.scene(), simulation.T_world_camera(k)));
   }
 
  private:
-  std::optional<TruthFile> truth_;
-  std::optional<SolidsFile> solids_;
+  std::optional<LineFile> truth_, solids_;
 };
 
 int write_files(const CLI::App& app, const Options& o, Simulation& simulation) {

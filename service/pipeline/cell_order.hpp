@@ -50,7 +50,7 @@ struct CellOrder : CellKeys {
 /// All points must be finite, and the cloud's extent less than 2^20 cells on each axis.
 [[nodiscard]] CellOrder order_by_cell(const PointCloud& cloud, float cell_m);
 
-/// The order of the points with these indices alone, given in ascending order.
+/// The order of the points with these indices alone; those of a cell are in the order of the indices.
 [[nodiscard]] CellOrder order_by_cell(const PointCloud& cloud, std::span<const std::uint32_t> indices,
                                       float cell_m);
 

@@ -49,10 +49,10 @@ using SettleScores =
 
 /// One for each distinct place, max_per_object for each object: its first, which is its best where none is
 /// marked, and then those that score best with regard to how far they are from the ones before and from the
-/// object's middle. What the
-/// others score beyond the first is noise: they get its score. Best score first; ties keep the order of the
-/// input, but for the first ones, which come before others. settle: scores are upper bounds, and it is asked
-/// for the final ones of those handles that the result depends on; without, they are final.
+/// object's middle. What the others score beyond the first is noise: they get its score. Best score first;
+/// ties keep the order of the input, but for the first ones, which come before others. settle: scores are
+/// upper bounds, and it is asked for the final ones of those handles that the result depends on; without,
+/// they are final.
 [[nodiscard]] std::pmr::vector<Handle> rank_handles(std::pmr::vector<RankedHandle> handles,
                                                     const HandleRankingConfig& config,
                                                     const SettleScores& settle = {});

@@ -55,13 +55,11 @@ SparseVoxels spread_thinly(const PointCloud& voxels, const std::pmr::vector<std:
                            float spacing_m) {
   const std::pmr::vector<std::uint32_t> chosen =
       thin_out(voxels, unmarked(is_support, voxels.size()), spacing_m);
-  const PointCloud cloud = points_at(voxels, chosen);
-  CellOrder order = order_by_cell(cloud, kSparseCell);
+  CellOrder order = order_by_cell(voxels, chosen, kSparseCell);
   SparseVoxels sparse;
   sparse.spacing_m = spacing_m;
   // In the query's own order, so that what is known of neighbours is near in memory.
-  sparse.voxel.resize(chosen.size());
-  for (std::size_t k = 0; k < chosen.size(); ++k) sparse.voxel[k] = chosen[order.points[k]];
+  sparse.voxel = order.points;
   sparse.cloud = points_at(voxels, sparse.voxel);
   sparse.query = BoxQuery(sparse.cloud, in_order(std::move(order)));
   return sparse;

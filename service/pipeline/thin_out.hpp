@@ -11,8 +11,8 @@
 
 namespace graspd {
 
-/// Of the points with these indices, given in ascending order: in each occupied cell of the spacing [m] the
-/// one nearest to the mean of those in it, in the order of the cells. All points must be finite.
+/// Of the points with these indices: in each occupied cell of the spacing [m] the one nearest to the mean of
+/// those in it, in the order of the cells. All points must be finite.
 [[nodiscard]] std::pmr::vector<std::uint32_t> thin_out(const PointCloud& cloud,
                                                        std::span<const std::uint32_t> indices,
                                                        float spacing_m);

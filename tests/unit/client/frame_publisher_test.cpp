@@ -7,8 +7,9 @@
 #include <cmath>
 #include <variant>
 
+#include "client/simulate/line_file.hpp"
 #include "client/simulate/simulation.hpp"
-#include "client/simulate/truth_file.hpp"
+#include "client/simulate/truth_line.hpp"
 #include "service/transport/cloud_decoder.hpp"
 
 namespace graspd {
@@ -95,12 +96,12 @@ TEST(Pacer, KeepsItsSlotsAndDoesNotMakeUpForLostOnes) {
   EXPECT_GE(std::chrono::steady_clock::now() - start, std::chrono::milliseconds(100));
 }
 
-TEST(TruthFile, ListsTheObjectsThatWereMeasured) {
+TEST(TruthLine, ListsTheObjectsThatWereMeasured) {
   const DepthFrame seen = frame();
   const std::string line = truth_line(3, seen);
   EXPECT_TRUE(line.starts_with("{\"seq\":3,\"objects\":[{\"label\":")) << line.substr(0, 60);
   EXPECT_EQ(line.back(), '\n');
-  EXPECT_THROW(TruthFile("/no/such/folder/truth.json"), std::runtime_error);
+  EXPECT_THROW(LineFile("/no/such/folder/truth.json"), std::runtime_error);
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ TEST(Surfaces, ThreeObjectsAndNoPointOfTheTableInThem) {
   for (std::size_t i = 0; i < s.cloud.size(); ++i)
     if (s.support->is_support[i]) {
       EXPECT_EQ(s.segments.of_point[i], -1);
-      EXPECT_LT(s.objects.of_point[i], 0);
+      EXPECT_EQ(s.objects.of_point[i], -1);
     }
 }
 

@@ -3,7 +3,6 @@
 // What a simulated camera really looked at, one line of JSON for each frame.
 #pragma once
 #include <cstdint>
-#include <fstream>
 #include <string>
 
 #include "client/simulate/depth_camera.hpp"
@@ -13,19 +12,5 @@ namespace graspd {
 /// {"seq": 3, "objects": [{"label": 20, "pixels": 5210, "points": [[x, y, z], ...]}, ...]}: every object with
 /// a measured pixel, with its points of every fourth row and column, in the optical frame [m].
 [[nodiscard]] std::string truth_line(std::int64_t seq, const DepthFrame& frame);
-
-/// Such lines in a file, each complete at once. Throws std::runtime_error that names the file when it cannot
-/// be written.
-class TruthFile {
- public:
-  explicit TruthFile(const std::string& path);
-  void write(std::int64_t seq, const DepthFrame& frame);
-
- private:
-  void check() const;
-
-  std::string path_;
-  std::ofstream out_;
-};
 
 }  // namespace graspd

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The graspd authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "client/simulate/truth_file.hpp"
+#include "client/simulate/truth_line.hpp"
 
 #include <map>
-#include <stdexcept>
 #include <vector>
 
 #include "client/common/json_writer.hpp"
@@ -43,19 +42,6 @@ std::string truth_line(std::int64_t seq, const DepthFrame& frame) {
   }
   json.end_array().end_object();
   return json.str() + '\n';
-}
-
-TruthFile::TruthFile(const std::string& path) : path_(path), out_(path, std::ios::trunc) {
-  check();
-}
-
-void TruthFile::write(std::int64_t seq, const DepthFrame& frame) {
-  out_ << truth_line(seq, frame) << std::flush;
-  check();
-}
-
-void TruthFile::check() const {
-  if (!out_) throw std::runtime_error(path_ + ": cannot be written");
 }
 
 }  // namespace graspd

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The graspd authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "client/simulate/solids_file.hpp"
+#include "client/simulate/solids_line.hpp"
 
-#include <stdexcept>
 #include <variant>
 
 #include "client/common/json_writer.hpp"
@@ -82,19 +81,6 @@ std::string solids_line(std::int64_t seq, const Scene& scene, const Eigen::Isome
   for (const Solid& solid : scene.solids) write_solid(json, solid);
   json.end_array().end_object();
   return json.str() + '\n';
-}
-
-SolidsFile::SolidsFile(const std::string& path) : path_(path), out_(path, std::ios::trunc) {
-  check();
-}
-
-void SolidsFile::write(std::int64_t seq, const Scene& scene, const Eigen::Isometry3d& T_world_camera) {
-  out_ << solids_line(seq, scene, T_world_camera) << std::flush;
-  check();
-}
-
-void SolidsFile::check() const {
-  if (!out_) throw std::runtime_error(path_ + ": cannot be written");
 }
 
 }  // namespace graspd

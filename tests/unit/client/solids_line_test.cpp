@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The graspd authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "client/simulate/solids_file.hpp"
+#include "client/simulate/solids_line.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "client/simulate/depth_camera.hpp"
+#include "client/simulate/line_file.hpp"
 #include "client/simulate/scene_builder.hpp"
 
 namespace graspd {
@@ -84,11 +85,11 @@ TEST_P(SolidsOf, AreReadBackAsTheyAre) {
   EXPECT_GE(types.size(), GetParam() == SceneKind::kTable ? std::variant_size_v<Convex> : 3);
 }
 
-INSTANTIATE_TEST_SUITE_P(SolidsFile, SolidsOf,
+INSTANTIATE_TEST_SUITE_P(SolidsLine, SolidsOf,
                          testing::Values(SceneKind::kTable, SceneKind::kExtreme, SceneKind::kHousehold));
 
-TEST(SolidsFile, SaysWhereItCannotBeWritten) {
-  EXPECT_THROW(SolidsFile("/no/such/folder/solids.jsonl"), std::runtime_error);
+TEST(LineFile, SaysWhereItCannotBeWritten) {
+  EXPECT_THROW(LineFile("/no/such/folder/solids.jsonl"), std::runtime_error);
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 // The true solids that a simulated camera looks at, one line of JSON for each frame.
 #pragma once
 #include <cstdint>
-#include <fstream>
 #include <string>
 
 #include "client/simulate/scene.hpp"
@@ -16,19 +15,5 @@ namespace graspd {
 /// frame: what client/simulate/convex.hpp names, its type in lower_snake and then its members.
 [[nodiscard]] std::string solids_line(std::int64_t seq, const Scene& scene,
                                       const Eigen::Isometry3d& T_world_camera);
-
-/// Such lines in a file, each complete at once. Throws std::runtime_error that names the file when it cannot
-/// be written.
-class SolidsFile {
- public:
-  explicit SolidsFile(const std::string& path);
-  void write(std::int64_t seq, const Scene& scene, const Eigen::Isometry3d& T_world_camera);
-
- private:
-  void check() const;
-
-  std::string path_;
-  std::ofstream out_;
-};
 
 }  // namespace graspd
