@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import mujoco
 import numpy as np
 
 from hand import APERTURE_M, DEPTH_M, THICKNESS_M
@@ -33,11 +34,10 @@ class Scene:
 
 def matrix(position: list[float], orientation: list[float]) -> np.ndarray:
     """orientation: a unit quaternion w, x, y, z."""
-    w, x, y, z = np.array(orientation) / np.linalg.norm(orientation)
+    rotation = np.zeros(9)
+    mujoco.mju_quat2Mat(rotation, np.array(orientation) / np.linalg.norm(orientation))
     T = np.eye(4)
-    T[:3, :3] = [[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-                 [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-                 [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]]
+    T[:3, :3] = rotation.reshape(3, 3)
     T[:3, 3] = position
     return T
 
