@@ -7,9 +7,8 @@
 namespace graspd {
 
 CoarseSurface::CoarseSurface(const PointCloud& cloud, float leaf_size_m)
-    : leaf_size_m_(leaf_size_m),
-      cloud_(downsample(cloud, {leaf_size_m}).cloud),
-      search_(cloud_, {2 * leaf_size_m}),
+    : voxels_(order_by_cell(cloud, leaf_size_m)),
+      cloud_(cell_means(cloud, voxels_)),
       has_normal_(cloud_.size()),
       normals_(cloud_.size(), Eigen::Vector3f::Zero()) {}
 
@@ -26,13 +25,13 @@ void CoarseSurface::prepare(const std::pmr::vector<std::uint8_t>& wanted) {
     skip[i] = wanted[i] == 0 || has_normal_[i] != 0 ? 1 : 0;
     has_normal_[i] |= wanted[i];
   }
-  estimate_normals(cloud_, search_.find(skip), normals_);
+  estimate_normals(cloud_, adjacent_points(voxels_, skip), normals_);
 }
 
 Neighborhoods CoarseSurface::neighborhoods(const std::pmr::vector<std::uint8_t>& wanted) const {
   std::pmr::vector<std::uint8_t> skip(size());
   for (std::size_t i = 0; i < size(); ++i) skip[i] = wanted[i] == 0 ? 1 : 0;
-  return search_.find(skip);
+  return adjacent_points(voxels_, skip);
 }
 
 }  // namespace graspd

@@ -16,15 +16,14 @@ namespace graspd {
 /// support.
 class CoarseSurface {
  public:
-  /// leaf_size_m: of its voxels. Neighbourhoods reach two of them.
+  /// leaf_size_m: of its voxels. Neighbours are in voxels next to each other.
   CoarseSurface(const PointCloud& cloud, float leaf_size_m);
-  CoarseSurface(const CoarseSurface&) = delete;
-  CoarseSurface& operator=(const CoarseSurface&) = delete;
 
   [[nodiscard]] const PointCloud& cloud() const { return cloud_; }
   [[nodiscard]] std::size_t size() const { return cloud_.size(); }
-  [[nodiscard]] float leaf_size_m() const { return leaf_size_m_; }
+  [[nodiscard]] float leaf_size_m() const { return voxels_.cell_m; }
 
+  [[nodiscard]] bool has_normal(std::size_t i) const { return has_normal_[i] != 0; }
   /// Whether the normals of all points with wanted[i] != 0 are there.
   [[nodiscard]] bool has(const std::pmr::vector<std::uint8_t>& wanted) const;
   /// Makes those that are not.
@@ -35,9 +34,8 @@ class CoarseSurface {
   [[nodiscard]] Neighborhoods neighborhoods(const std::pmr::vector<std::uint8_t>& wanted) const;
 
  private:
-  float leaf_size_m_;
+  CellOrder voxels_;
   PointCloud cloud_;
-  NeighborhoodSearch search_;
   std::pmr::vector<std::uint8_t> has_normal_;
   Normals normals_;
 };

@@ -11,32 +11,38 @@ namespace graspd {
 
 namespace {
 
-/// Means of the points of cells [begin, end), and whose points they are.
-void set_means(const PointCloud& cloud, const CellOrder& cells, std::size_t begin, std::size_t end,
-               Downsampled& out) {
-  point_kernels().set_means(cells.of(cloud, begin, end), out.cloud.x.data() + begin,
-                            out.cloud.y.data() + begin, out.cloud.z.data() + begin);
+/// Sets whose points the points of cells [begin, end) are.
+void set_cells(const CellOrder& cells, std::size_t begin, std::size_t end, std::uint32_t* cell_of_point) {
   const std::uint32_t* point = cells.points.data() + cells.starts[begin];
-  std::uint32_t* voxel = out.voxel_of_point.data();
   for (std::size_t c = begin; c < end; ++c)
     for (std::uint32_t left = cells.starts[c + 1] - cells.starts[c]; left > 0; --left)
-      voxel[*point++] = static_cast<std::uint32_t>(c);
+      cell_of_point[*point++] = static_cast<std::uint32_t>(c);
 }
 
 Downsampled thin_by_voxels(const PointCloud& cloud, float leaf_size_m) {
   const CellOrder cells = order_by_cell(cloud, leaf_size_m);
-  Downsampled result;
-  PointCloud& voxels = result.cloud;
-  voxels.viewpoint = cloud.viewpoint;
-  voxels.resize(cells.num_cells());
-  voxels.width = static_cast<int>(cells.num_cells());
+  Downsampled result{cell_means(cloud, cells), {}};
   result.voxel_of_point.resize(cloud.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells.num_cells(), 2048),
-                    [&](const auto& range) { set_means(cloud, cells, range.begin(), range.end(), result); });
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells.num_cells(), 2048), [&](const auto& range) {
+    set_cells(cells, range.begin(), range.end(), result.voxel_of_point.data());
+  });
   return result;
 }
 
 }  // namespace
+
+PointCloud cell_means(const PointCloud& cloud, const CellOrder& cells) {
+  PointCloud means;
+  means.viewpoint = cloud.viewpoint;
+  means.resize(cells.num_cells());
+  means.width = static_cast<int>(cells.num_cells());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells.num_cells(), 2048), [&](const auto& range) {
+    const std::size_t c = range.begin();
+    point_kernels().set_means(cells.of(cloud, c, range.end()), means.x.data() + c, means.y.data() + c,
+                              means.z.data() + c);
+  });
+  return means;
+}
 
 Downsampled downsample(const PointCloud& cloud, const DownsampleConfig& config, const ImagePixels& pixels) {
   if (config.image_blocks)

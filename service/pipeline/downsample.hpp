@@ -4,6 +4,7 @@
 #pragma once
 #include <cstdint>
 
+#include "service/pipeline/cell_order.hpp"
 #include "service/pipeline/config_fields.hpp"
 #include "service/pipeline/pinhole_fit.hpp"
 #include "service/pipeline/point_cloud.hpp"
@@ -31,5 +32,8 @@ struct Downsampled {
 /// All points must be finite. pixels: of the cloud's points, where it is part of an image.
 [[nodiscard]] Downsampled downsample(const PointCloud& cloud, const DownsampleConfig& config,
                                      const ImagePixels& pixels = {});
+
+/// The mean of the points of each cell, in the cells' order.
+[[nodiscard]] PointCloud cell_means(const PointCloud& cloud, const CellOrder& cells);
 
 }  // namespace graspd

@@ -19,45 +19,53 @@ namespace {
 /// only moves on.
 class RowCursor {
  public:
-  RowCursor(const CellOrder& order, std::size_t first_cell) : order_(order) {
+  RowCursor(const CellKeys& cells, std::size_t first_cell) : cells_(cells) {
     std::size_t i = 0;
     for (std::int64_t dz = -1; dz <= 1; ++dz)
-      for (std::int64_t dy = -1; dy <= 1; ++dy) offsets_[i++] = dz * order.layer + dy * order.row;
+      for (std::int64_t dy = -1; dy <= 1; ++dy) offsets_[i++] = dz * cells.layer + dy * cells.row;
     for (i = 0; i < offsets_.size(); ++i) {
-      const std::int64_t key = order.keys[first_cell] + offsets_[i] - 1;
-      positions_[i] = static_cast<std::size_t>(std::lower_bound(order.keys.begin(), order.keys.end(), key) -
-                                               order.keys.begin());
+      const std::int64_t key = cells.keys[first_cell] + offsets_[i] - 1;
+      positions_[i] = static_cast<std::size_t>(std::lower_bound(cells.keys.begin(), cells.keys.end(), key) -
+                                               cells.keys.begin());
     }
   }
 
-  /// The points around a cell; cells must ascend from call to call.
-  std::span<const PointSpan> around(std::size_t cell) {
+  /// The occupied cells around one, itself included; cells must ascend from call to call.
+  std::span<PointSpan> around(std::size_t cell) {
     std::size_t n = 0;
     for (std::size_t i = 0; i < offsets_.size(); ++i) {
-      const std::int64_t center = order_.keys[cell] + offsets_[i];
+      const std::int64_t center = cells_.keys[cell] + offsets_[i];
       const std::size_t begin = positions_[i] = next_at(positions_[i], center - 1);
-      const std::size_t end = ends_[i] = next_at(std::max(ends_[i], begin), center + 2);
-      spans_[n] = {order_.starts[begin], order_.starts[end]};
+      const std::size_t end = next_within<3>(begin, center + 2);  // three have the keys between
+      spans_[n] = {static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
       n += begin != end ? 1 : 0;
     }
     return {spans_.data(), n};
   }
 
  private:
-  static constexpr std::size_t kStride = 8;  // cells that are passed over at once where few are asked for
-
   /// The first cell from c on with no smaller key.
   [[nodiscard]] std::size_t next_at(std::size_t c, std::int64_t key) const {
-    const std::int64_t* keys = order_.keys.data();
-    const std::size_t num_cells = order_.num_cells();
-    while (c + kStride < num_cells && keys[c + kStride] < key) c += kStride;
-    while (c < num_cells && keys[c] < key) ++c;
+    constexpr std::size_t kMost = 7;
+    while (c + kMost < cells_.num_cells() && cells_.keys[c + kMost] < key) c += kMost + 1;
+    return next_within<kMost>(c, key);
+  }
+
+  /// The same among the next kMost + 1 cells, a power of two. No processor guesses which of them it is: found
+  /// without a branch.
+  template <std::size_t kMost>
+  [[nodiscard]] std::size_t next_within(std::size_t c, std::int64_t key) const {
+    const std::int64_t* keys = cells_.keys.data();
+    if (c + kMost > cells_.num_cells())
+      while (c < cells_.num_cells() && keys[c] < key) ++c;
+    else
+      for (std::size_t half = (kMost + 1) / 2; half > 0; half /= 2) c += keys[c + half - 1] < key ? half : 0;
     return c;
   }
 
-  const CellOrder& order_;
+  const CellKeys& cells_;
   std::array<std::int64_t, 9> offsets_{};
-  std::array<std::size_t, 9> positions_{}, ends_{};
+  std::array<std::size_t, 9> positions_{};
   std::array<PointSpan, 9> spans_{};
 };
 
@@ -172,52 +180,75 @@ std::span<const std::uint32_t> wanted_points(std::span<const std::uint32_t> cell
 
 }  // namespace
 
-NeighborhoodSearch::NeighborhoodSearch(const PointCloud& cloud, const NeighborhoodsConfig& config)
-    : cloud_(cloud),
-      radius_m_(config.radius_m),
-      order_(order_by_cell(cloud, config.radius_m)),
-      points_(cloud, order_.points) {}
-
-Neighborhoods NeighborhoodSearch::find(const std::pmr::vector<std::uint8_t>& skip) const {
-  Neighborhoods result;
-  result.lists_.resize(cloud_.size());
-  std::fill(result.lists_.begin(), result.lists_.end(), NeighborList{});
-  result.points_ = unmarked(skip, cloud_.size());
-  constexpr std::size_t kCellsPerChunk = 128;
-  const std::size_t num_chunks = (order_.num_cells() + kCellsPerChunk - 1) / kCellsPerChunk;
-  const float radius_squared = radius_m_ * radius_m_;
-  const PointKernels& kernels = point_kernels();
-  tbb::enumerable_thread_specific<Workspace, std::pmr::polymorphic_allocator<Workspace>> workspaces;
-
-  tbb::parallel_for(std::size_t{0}, num_chunks, [&](std::size_t chunk) {
-    const std::size_t begin = chunk * kCellsPerChunk;
-    const std::size_t end = std::min(begin + kCellsPerChunk, order_.num_cells());
-    RowCursor cursor(order_, begin);
-    Workspace& w = workspaces.local();
-    for (std::size_t c = begin; c < end; ++c) {
-      const std::span<const std::uint32_t> wanted = wanted_points(order_.cell(c), skip, w.wanted);
-      if (wanted.empty()) continue;
-      const std::span<const PointSpan> spans = cursor.around(c);
-      std::size_t size = 0;
-      for (const PointSpan& span : spans) size += span.end - span.begin;
-      w.candidates.take(cloud_, wanted, radius_m_, points_.all(), spans, size);
-      for (const std::uint32_t i : wanted) {
-        std::uint32_t* list = w.lists.room(w.candidates.size());
-        const std::size_t n = kernels.keep_near({cloud_.x[i], cloud_.y[i], cloud_.z[i]}, radius_squared,
-                                                w.candidates.points(), w.candidates.spans(), list);
-        w.lists.keep(n);
-        result.lists_[i] = {i, static_cast<std::uint32_t>(n), list};
-      }
-    }
-  });
-  for (Workspace& w : workspaces)
-    for (RawVector<std::uint32_t>& block : w.lists.take()) result.storage_.push_back(std::move(block));
-  return result;
-}
+/// Makes the lists of all points, cell by cell.
+class NeighborhoodLists {
+ public:
+  /// add(cell, cursor, workspace, lists) sets lists[i] for the points of a cell; the cells of a chunk ascend.
+  template <class Add>
+  static Neighborhoods make(const CellKeys& cells, std::size_t num_points,
+                            const std::pmr::vector<std::uint8_t>& skip, const Add& add) {
+    Neighborhoods result;
+    result.lists_.resize(num_points);
+    std::fill(result.lists_.begin(), result.lists_.end(), NeighborList{});
+    result.points_ = unmarked(skip, num_points);
+    constexpr std::size_t kCellsPerChunk = 128;
+    const std::size_t num_chunks = (cells.num_cells() + kCellsPerChunk - 1) / kCellsPerChunk;
+    tbb::enumerable_thread_specific<Workspace, std::pmr::polymorphic_allocator<Workspace>> workspaces;
+    tbb::parallel_for(std::size_t{0}, num_chunks, [&](std::size_t chunk) {
+      const std::size_t begin = chunk * kCellsPerChunk;
+      const std::size_t end = std::min(begin + kCellsPerChunk, cells.num_cells());
+      RowCursor cursor(cells, begin);
+      Workspace& w = workspaces.local();
+      for (std::size_t c = begin; c < end; ++c) add(c, cursor, w, result.lists_.data());
+    });
+    for (Workspace& w : workspaces)
+      for (RawVector<std::uint32_t>& block : w.lists.take()) result.storage_.push_back(std::move(block));
+    return result;
+  }
+};
 
 Neighborhoods find_neighborhoods(const PointCloud& cloud, const NeighborhoodsConfig& config,
                                  const std::pmr::vector<std::uint8_t>& skip) {
-  return NeighborhoodSearch(cloud, config).find(skip);
+  const CellOrder order = order_by_cell(cloud, config.radius_m);
+  const PaddedPoints points(cloud, order.points);
+  const float radius_squared = config.radius_m * config.radius_m;
+  const PointKernels& kernels = point_kernels();
+  const auto add = [&](std::size_t c, RowCursor& cursor, Workspace& w, NeighborList* lists) {
+    const std::span<const std::uint32_t> wanted = wanted_points(order.cell(c), skip, w.wanted);
+    if (wanted.empty()) return;
+    const std::span<PointSpan> spans = cursor.around(c);
+    std::size_t size = 0;
+    for (PointSpan& span : spans) {
+      span = {order.starts[span.begin], order.starts[span.end]};
+      size += span.end - span.begin;
+    }
+    w.candidates.take(cloud, wanted, config.radius_m, points.all(), spans, size);
+    for (const std::uint32_t i : wanted) {
+      std::uint32_t* list = w.lists.room(w.candidates.size());
+      const std::size_t n = kernels.keep_near({cloud.x[i], cloud.y[i], cloud.z[i]}, radius_squared,
+                                              w.candidates.points(), w.candidates.spans(), list);
+      w.lists.keep(n);
+      lists[i] = {i, static_cast<std::uint32_t>(n), list};
+    }
+  };
+  return NeighborhoodLists::make(order, cloud.size(), skip, add);
+}
+
+Neighborhoods adjacent_points(const CellKeys& cells, const std::pmr::vector<std::uint8_t>& skip) {
+  constexpr std::size_t kMost = 27;
+  const auto add = [&](std::size_t c, RowCursor& cursor, Workspace& w, NeighborList* lists) {
+    if (!skip.empty() && skip[c] != 0) return;
+    std::uint32_t* list = w.lists.room(kMost);
+    std::uint32_t n = 0;
+    for (const PointSpan& span : cursor.around(c)) {
+      // Three at most: there is room for what is written beyond the end.
+      for (std::uint32_t k = 0; k < 3; ++k) list[n + k] = span.begin + k;
+      n += span.end - span.begin;
+    }
+    w.lists.keep(n);
+    lists[c] = {static_cast<std::uint32_t>(c), n, list};
+  };
+  return NeighborhoodLists::make(cells, cells.num_cells(), skip, add);
 }
 
 }  // namespace graspd

@@ -37,31 +37,20 @@ class Neighborhoods {
   [[nodiscard]] const NeighborList& list(std::size_t point) const { return lists_[point]; }
 
  private:
-  friend class NeighborhoodSearch;
+  friend class NeighborhoodLists;
   RawVector<std::uint32_t> points_;
   RawVector<NeighborList> lists_;
   std::pmr::vector<RawVector<std::uint32_t>> storage_;
 };
 
-/// Finds neighbourhoods of some points of a cloud after others.
-class NeighborhoodSearch {
- public:
-  /// All points must be finite; the cloud must outlive the search.
-  NeighborhoodSearch(const PointCloud& cloud, const NeighborhoodsConfig& config);
-
-  /// The order within a list is fixed by the points' positions. skip: 1 for each point whose own
-  /// neighbourhood is not wanted (it still is a neighbour of others); may be empty.
-  [[nodiscard]] Neighborhoods find(const std::pmr::vector<std::uint8_t>& skip = {}) const;
-
- private:
-  const PointCloud& cloud_;
-  float radius_m_;
-  CellOrder order_;
-  PaddedPoints points_;
-};
-
-/// The same for once.
+/// All points must be finite. The order within a list is fixed by the points' positions. skip: 1 for each
+/// point whose own neighbourhood is not wanted (it still is a neighbour of others); may be empty.
 [[nodiscard]] Neighborhoods find_neighborhoods(const PointCloud& cloud, const NeighborhoodsConfig& config,
                                                const std::pmr::vector<std::uint8_t>& skip = {});
+
+/// Of a cloud with one point in each cell, in the cells' order: a point's neighbours are those of the 26
+/// cells around its own. Coarser than a radius, and found without a distance.
+[[nodiscard]] Neighborhoods adjacent_points(const CellKeys& cells,
+                                            const std::pmr::vector<std::uint8_t>& skip = {});
 
 }  // namespace graspd

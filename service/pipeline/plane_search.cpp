@@ -18,15 +18,6 @@ namespace graspd {
 namespace {
 
 constexpr std::size_t kSampleSize = 2000;  // points that hypotheses are scored on
-constexpr std::size_t kFewTimes = 5;       // as many: all are prepared at once, most will be needed
-
-/// What a point at a distance [m] counts. Far away as much as the part of the view that its piece of surface
-/// fills, but for the slant: a wall behind a table may be larger than it.
-float weight_at(float distance_m) {
-  constexpr float kFar = 1;  // [m]
-  const float d = std::max(kFar, distance_m);
-  return 1 / (d * d);
-}
 
 struct Sample {
   PointCloud points;
@@ -35,7 +26,7 @@ struct Sample {
 
   /// Between the points on a surface at a distance [m].
   [[nodiscard]] float spacing_at(float distance_m) const {
-    return std::sqrt(area_m2 / weight_at(distance_m));
+    return std::sqrt(area_m2 / sample_weight(distance_m));
   }
 };
 
@@ -45,7 +36,7 @@ Sample take_sample(CoarseSurface& coarse, const Eigen::Vector3f& viewpoint) {
   RawVector<float> weights(n);
   float sum = 0, most = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    weights[i] = weight_at((coarse.cloud().point(i) - viewpoint).norm());
+    weights[i] = sample_weight((coarse.cloud().point(i) - viewpoint).norm());
     sum += weights[i];
     most = std::max(most, weights[i]);
   }
@@ -58,7 +49,7 @@ Sample take_sample(CoarseSurface& coarse, const Eigen::Vector3f& viewpoint) {
     left -= of_one;
     is_in[i] = 1;
   }
-  coarse.prepare(n < kFewTimes * kSampleSize ? std::pmr::vector<std::uint8_t>(n, 1) : is_in);
+  coarse.prepare(is_in);
   Sample sample;
   sample.area_m2 = coarse.leaf_size_m() * coarse.leaf_size_m() * of_one;
   for (std::size_t i = 0; i < n; ++i) {
@@ -170,6 +161,12 @@ int count_on(const Sample& sample, const Plane& plane, const PlaneLimits& limits
 }
 
 }  // namespace
+
+float sample_weight(float distance_m) {
+  constexpr float kFar = 1;  // [m]
+  const float d = std::max(kFar, distance_m);
+  return 1 / (d * d);
+}
 
 std::optional<Plane> find_plane(CoarseSurface& coarse, int num_hypotheses, const PlaneLimits& limits,
                                 const Eigen::Vector3f& viewpoint) {

@@ -16,6 +16,10 @@ struct PlaneLimits {
   float min_cosine;   ///< between its normal and the plane's
 };
 
+/// How densely points at a distance [m] are sampled, 1 where all are alike. Far away by the part of the view
+/// that a piece of surface fills, but for the slant: a wall behind a table may be larger than it.
+[[nodiscard]] float sample_weight(float distance_m);
+
 /// Of so many hypotheses the one with the most points on it less those seen through it: behind it, on lines
 /// of sight that pass it where its own points are. A support hides what is behind it; beyond its border the
 /// floor may be seen, however much of it. Its normal is on the side of the viewpoint. Nothing where every

@@ -42,30 +42,35 @@ std::pmr::vector<std::uint8_t> points_within(const RawVector<float>& heights, fl
   return is_within;
 }
 
-/// Least squares over the inliers; returns their number.
-std::size_t refine(CoarseSurface& coarse, const PlaneLimits& limits, Plane& plane) {
-  const RawVector<float> heights = heights_above(plane, coarse.cloud());
-  const std::pmr::vector<std::uint8_t> is_near = points_within(heights, limits.thickness_m);
-  // With some to spare for the next rounds.
-  if (!coarse.has(is_near)) coarse.prepare(points_within(heights, 2 * limits.thickness_m));
+/// Least squares over the inliers among the points whose normal is there, each for those of its surroundings
+/// that it stands for. Returns about how many inliers there are among all.
+float refine(const CoarseSurface& coarse, const PlaneLimits& limits, Plane& plane) {
+  const std::pmr::vector<std::uint8_t> is_near =
+      points_within(heights_above(plane, coarse.cloud()), limits.thickness_m);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-  std::size_t n = 0;
+  double num_near = 0, num_asked = 0, n = 0;
   for (std::size_t i = 0; i < coarse.size(); ++i) {
-    if (is_near[i] == 0 || plane.normal.dot(coarse.normals().at(i)) <= limits.min_cosine) continue;
-    const Eigen::Vector3d q = coarse.cloud().point(i).cast<double>();
-    sum += q;
-    squares += q * q.transpose();
-    ++n;
+    if (is_near[i] == 0) continue;
+    ++num_near;
+    if (!coarse.has_normal(i)) continue;
+    const Eigen::Vector3f p = coarse.cloud().point(i);
+    const auto weight = 1 / static_cast<double>(sample_weight((p - coarse.cloud().viewpoint).norm()));
+    num_asked += weight;
+    if (plane.normal.dot(coarse.normals().at(i)) <= limits.min_cosine) continue;
+    const Eigen::Vector3d q = p.cast<double>();
+    sum += weight * q;
+    squares += weight * q * q.transpose();
+    n += weight;
   }
-  if (n < 3) return n;
-  const Eigen::Vector3d mean = sum / static_cast<double>(n);
-  const Eigen::Matrix3d covariance = squares / static_cast<double>(n) - mean * mean.transpose();
+  if (n < 3) return 0;
+  const Eigen::Vector3d mean = sum / n;
+  const Eigen::Matrix3d covariance = squares / n - mean * mean.transpose();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
   Eigen::Vector3f normal = solver.eigenvectors().col(0).cast<float>();
   if (normal.dot(plane.normal) < 0) normal = -normal;
   plane = {normal, -normal.dot(mean.cast<float>())};
-  return n;
+  return static_cast<float>(num_near * n / num_asked);
 }
 
 /// Largest number of points of a plane that hang together.
@@ -214,10 +219,9 @@ std::optional<Support> find_support(const PointCloud& cloud, const SupportConfig
   const auto upper_points =
       static_cast<std::size_t>(config.min_upper_area_m2 / (config.leaf_size_m * config.leaf_size_m));
   support.plane = highest_parallel(coarse, *hypothesis, limits, upper_points);
-  std::size_t inliers = 0;
+  float inliers = 0;
   for (int round = 0; round < 3; ++round) inliers = refine(coarse, limits, support.plane);
-  if (static_cast<float>(inliers) * config.leaf_size_m * config.leaf_size_m < config.min_area_m2)
-    return std::nullopt;
+  if (inliers * config.leaf_size_m * config.leaf_size_m < config.min_area_m2) return std::nullopt;
   support.sigma_m = scatter(cloud, support.plane, config.thickness_m);
   support.is_support = points_of(support, cloud, config);
   return support;

@@ -25,7 +25,7 @@ TEST(CoarseSurface, PreparesTheSameAsForAllPoints) {
   const PointCloud cloud = finite_points(render(three_objects()).cloud);
   CoarseSurface coarse(cloud, kLeaf);
   const PointCloud voxels = downsample(cloud, {kLeaf}).cloud;
-  const Neighborhoods neighborhoods = find_neighborhoods(voxels, {2 * kLeaf});
+  const Neighborhoods neighborhoods = adjacent_points(order_by_cell(voxels, kLeaf));
   const Normals normals = estimate_normals(voxels, neighborhoods);
   ASSERT_EQ(coarse.size(), voxels.size());
   for (const std::size_t step : {std::size_t{22}, std::size_t{3}, std::size_t{1}}) {

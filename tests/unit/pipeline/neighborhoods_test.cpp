@@ -118,5 +118,49 @@ TEST(Neighborhoods, OrderWithinAListFollowsPositionsNotIndices) {
   }
 }
 
+/// Cells next to each other differ by no more than one on each axis.
+void expect_adjacent(const PointCloud& cloud, float cell_m, const std::pmr::vector<std::uint8_t>& skip = {}) {
+  const CellOrder cells = order_by_cell(cloud, cell_m);
+  const Neighborhoods neighborhoods = adjacent_points(cells, skip);
+  ASSERT_EQ(neighborhoods.size(), cells.num_cells());
+  for (std::size_t a = 0; a < cells.num_cells(); ++a) {
+    std::pmr::vector<std::uint32_t> expected;
+    for (std::uint32_t b = 0; b < cells.num_cells(); ++b)
+      if ((cells.cell_of(cells.keys[a]) - cells.cell_of(cells.keys[b])).cwiseAbs().maxCoeff() <= 1)
+        expected.push_back(b);
+    if (!skip.empty() && skip[a] != 0) expected.clear();
+    const auto list = neighborhoods.of(a);
+    ASSERT_TRUE(std::ranges::equal(list, expected)) << "cell " << a << " of " << cells.num_cells();
+  }
+}
+
+TEST(AdjacentPoints, OfOneCellAndOfNone) {
+  expect_adjacent({}, 0.01f);
+  expect_adjacent(random_cloud(1, {1, 1, 1}, {2, 2, 2}, 1), 0.01f);
+}
+
+TEST(AdjacentPoints, OfAFullBlockOfCells) {
+  expect_adjacent(random_cloud(6000, {-0.04f, -0.04f, -0.04f}, {0.04f, 0.04f, 0.04f}, 2), 0.01f);
+}
+
+TEST(AdjacentPoints, OfRowsWithGapsAndOfScatteredCells) {
+  for (std::uint32_t seed = 3; seed < 7; ++seed) {
+    expect_adjacent(random_cloud(600, {-0.1f, -0.1f, -0.1f}, {0.1f, 0.1f, 0.1f}, seed), 0.01f);
+    expect_adjacent(random_cloud(100, {-3, -2, -1}, {3, 2, 1}, seed), 0.01f);
+    expect_adjacent(random_cloud(300, {-0.3f, -0.02f, 0}, {0.3f, 0.02f, 0}, seed), 0.01f);
+  }
+}
+
+// The rows' places are found from cell to cell: few wanted ones are far apart.
+TEST(AdjacentPoints, OfFewWantedCells) {
+  const PointCloud cloud = random_cloud(3000, {-0.1f, -0.1f, -0.02f}, {0.1f, 0.1f, 0.02f}, 8);
+  const std::size_t n = order_by_cell(cloud, 0.01f).num_cells();
+  for (const std::size_t step : {2, 5, 37, 211}) {
+    std::pmr::vector<std::uint8_t> skip(n);
+    for (std::size_t i = 0; i < n; ++i) skip[i] = i % step != 0 ? 1 : 0;
+    expect_adjacent(cloud, 0.01f, skip);
+  }
+}
+
 }  // namespace
 }  // namespace graspd
