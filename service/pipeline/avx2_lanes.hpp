@@ -97,6 +97,7 @@ std::size_t list_above(const std::int32_t* values, std::int32_t limit, const std
                        std::size_t n, std::uint32_t* out);
 std::size_t list_members(const std::int32_t* values, std::size_t n, std::uint32_t* out);
 std::size_t list_unmarked(const std::uint8_t* marks, std::size_t n, std::uint32_t* out);
+void first_few(const float* v, std::size_t n, bool largest, float (&out)[kFew]);
 
 // What points are brought into order with.
 std::size_t count_changes(const std::uint32_t* keys, std::size_t n);

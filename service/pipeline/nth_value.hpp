@@ -7,6 +7,9 @@
 #include <cstddef>
 #include <functional>
 #include <span>
+#include <type_traits>
+
+#include "service/pipeline/point_kernels.hpp"
 
 namespace graspd {
 
@@ -14,13 +17,20 @@ namespace graspd {
 /// small n it takes one pass that rarely moves anything, where std::nth_element takes several.
 template <class Less = std::less<>>
 [[nodiscard]] float nth_value(std::span<float> values, std::size_t n, Less less = {}) {
-  constexpr std::size_t kFew = 24, kBlock = 16;
-  if (n >= kFew) {
+  constexpr bool kLargest = std::is_same_v<Less, std::greater<>>;
+  static_assert(kLargest || std::is_same_v<Less, std::less<>>);
+  constexpr std::size_t kSmall = 24, kBlock = 16;
+  if (n < kFew) {
+    float few[kFew];
+    point_kernels().first_few(values.data(), values.size(), kLargest, few);
+    return few[n];
+  }
+  if (n >= kSmall) {
     const auto nth = values.begin() + static_cast<std::ptrdiff_t>(n);
     std::nth_element(values.begin(), nth, values.end(), less);
     return *nth;
   }
-  std::array<float, kFew + 1> first;  // so far, in order
+  std::array<float, kSmall + 1> first;  // so far, in order
   std::size_t size = 0;
   const auto put = [&](float value) {
     if (size > n && !less(value, first[n])) return;

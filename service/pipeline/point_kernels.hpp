@@ -246,6 +246,9 @@ struct ProfileSums {
   float n, s, ss, sss, ssss, a, as, ass, aa, z, zs, zss, za, ee;
 };
 
+/// How many values from one end first_few() finds.
+inline constexpr std::size_t kFew = 4;
+
 struct PointKernels {
   /// Sets bit k % 8 of masks[k / 8] for each of n points that is finite and in the workspace, and no others
   /// up to the next byte; returns how many are finite.
@@ -316,6 +319,9 @@ struct PointKernels {
   /// Writes the pixels that n such points fall on, row by row, or -1 outside of the image and behind the
   /// sensor.
   void (*find_pixels)(const ViewImage& view, const ViewPoints& points, std::size_t n, std::int32_t* out);
+  /// Writes the smallest of n values, ascending, or the largest, descending; infinities where there are
+  /// fewer.
+  void (*first_few)(const float* v, std::size_t n, bool largest, float (&out)[kFew]);
   /// Widens [low, high] to hold n values; passes over NaN.
   void (*extend_bounds)(const float* v, std::size_t n, float& low, float& high);
   /// Writes the number of the cell of each of n points.

@@ -250,5 +250,28 @@ TEST(CheckKernels, FindWhatHidesPlacesInAnImage) {
   for (const std::int32_t other : {-1, kBeside, kAbove, kBelow}) EXPECT_GT(num_others[other], 20) << other;
 }
 
+TEST(CheckKernels, TheFirstFewOfManyValues) {
+  std::mt19937 random(13);
+  for (const std::size_t size : {0, 1, 3, 4, 7, 8, 9, 16, 31, 200}) {
+    for (const unsigned levels : {3u, 1000000u}) {  // with many equal values, and hardly any
+      std::pmr::vector<float> values(size), sorted;
+      for (float& value : values) value = static_cast<float>(random() % levels) - 1.5f;
+      for (const bool largest : {false, true}) {
+        sorted = values;
+        std::sort(sorted.begin(), sorted.end());
+        if (largest) std::reverse(sorted.begin(), sorted.end());
+        constexpr float kInfinity = std::numeric_limits<float>::infinity();
+        sorted.resize(std::max(size, kFew), largest ? -kInfinity : kInfinity);
+        for (const Form& form : forms()) {
+          float few[kFew];
+          form.kernels->first_few(values.data(), size, largest, few);
+          for (std::size_t k = 0; k < kFew; ++k)
+            EXPECT_EQ(few[k], sorted[k]) << form.name << " " << size << " " << k << " " << largest;
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace graspd
