@@ -12,7 +12,7 @@
 namespace graspd {
 namespace {
 
-constexpr float kSpacing = 0.008f;  // between the points that stand for the object [m]
+constexpr float kSpacing = 0.010f;  // between the points that stand for the object [m]
 
 }  // namespace
 
