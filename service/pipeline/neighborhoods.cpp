@@ -130,8 +130,6 @@ class Candidates {
 /// Lists one after the other, in blocks that stay where they are.
 class ListStorage {
  public:
-  using Blocks = std::pmr::vector<RawVector<std::uint32_t>>;
-
   /// Room for a list of so many and kPointPadding more.
   std::uint32_t* room(std::size_t most) {
     if (static_cast<std::size_t>(end_ - next_) >= most + kPointPadding) return next_;
@@ -146,12 +144,12 @@ class ListStorage {
     next_ += size;
     std::fill_n(next_, kPointPadding, 0u);
   }
-  [[nodiscard]] Blocks take() { return std::move(blocks_); }
+  [[nodiscard]] Neighborhoods::Storage take() { return std::move(blocks_); }
 
  private:
   static constexpr std::size_t kBlock = 1 << 14;
 
-  Blocks blocks_;
+  Neighborhoods::Storage blocks_;
   std::uint32_t *next_ = nullptr, *end_ = nullptr;
 };
 
@@ -178,34 +176,30 @@ std::span<const std::uint32_t> wanted_points(std::span<const std::uint32_t> cell
   return {to, n};
 }
 
-}  // namespace
+/// Makes the lists cell by cell: add(cell, cursor, workspace, lists) sets lists[i] for the points of a cell;
+/// the cells of a chunk ascend.
+template <class Add>
+Neighborhoods make_lists(const CellKeys& cells, std::size_t num_points,
+                         const std::pmr::vector<std::uint8_t>& skip, const Add& add) {
+  RawVector<NeighborList> lists(num_points);
+  std::fill(lists.begin(), lists.end(), NeighborList{});
+  constexpr std::size_t kCellsPerChunk = 128;
+  const std::size_t num_chunks = (cells.num_cells() + kCellsPerChunk - 1) / kCellsPerChunk;
+  tbb::enumerable_thread_specific<Workspace, std::pmr::polymorphic_allocator<Workspace>> workspaces;
+  tbb::parallel_for(std::size_t{0}, num_chunks, [&](std::size_t chunk) {
+    const std::size_t begin = chunk * kCellsPerChunk;
+    const std::size_t end = std::min(begin + kCellsPerChunk, cells.num_cells());
+    RowCursor cursor(cells, begin);
+    Workspace& w = workspaces.local();
+    for (std::size_t c = begin; c < end; ++c) add(c, cursor, w, lists.data());
+  });
+  Neighborhoods::Storage storage;
+  for (Workspace& w : workspaces)
+    for (RawVector<std::uint32_t>& block : w.lists.take()) storage.push_back(std::move(block));
+  return {unmarked(skip, num_points), std::move(lists), std::move(storage)};
+}
 
-/// Makes the lists of all points, cell by cell.
-class NeighborhoodLists {
- public:
-  /// add(cell, cursor, workspace, lists) sets lists[i] for the points of a cell; the cells of a chunk ascend.
-  template <class Add>
-  static Neighborhoods make(const CellKeys& cells, std::size_t num_points,
-                            const std::pmr::vector<std::uint8_t>& skip, const Add& add) {
-    Neighborhoods result;
-    result.lists_.resize(num_points);
-    std::fill(result.lists_.begin(), result.lists_.end(), NeighborList{});
-    result.points_ = unmarked(skip, num_points);
-    constexpr std::size_t kCellsPerChunk = 128;
-    const std::size_t num_chunks = (cells.num_cells() + kCellsPerChunk - 1) / kCellsPerChunk;
-    tbb::enumerable_thread_specific<Workspace, std::pmr::polymorphic_allocator<Workspace>> workspaces;
-    tbb::parallel_for(std::size_t{0}, num_chunks, [&](std::size_t chunk) {
-      const std::size_t begin = chunk * kCellsPerChunk;
-      const std::size_t end = std::min(begin + kCellsPerChunk, cells.num_cells());
-      RowCursor cursor(cells, begin);
-      Workspace& w = workspaces.local();
-      for (std::size_t c = begin; c < end; ++c) add(c, cursor, w, result.lists_.data());
-    });
-    for (Workspace& w : workspaces)
-      for (RawVector<std::uint32_t>& block : w.lists.take()) result.storage_.push_back(std::move(block));
-    return result;
-  }
-};
+}  // namespace
 
 Neighborhoods find_neighborhoods(const PointCloud& cloud, const NeighborhoodsConfig& config,
                                  const std::pmr::vector<std::uint8_t>& skip) {
@@ -231,7 +225,7 @@ Neighborhoods find_neighborhoods(const PointCloud& cloud, const NeighborhoodsCon
       lists[i] = {i, static_cast<std::uint32_t>(n), list};
     }
   };
-  return NeighborhoodLists::make(order, cloud.size(), skip, add);
+  return make_lists(order, cloud.size(), skip, add);
 }
 
 Neighborhoods adjacent_points(const CellKeys& cells, const std::pmr::vector<std::uint8_t>& skip) {
@@ -248,7 +242,7 @@ Neighborhoods adjacent_points(const CellKeys& cells, const std::pmr::vector<std:
     w.lists.keep(n);
     lists[c] = {static_cast<std::uint32_t>(c), n, list};
   };
-  return NeighborhoodLists::make(cells, cells.num_cells(), skip, add);
+  return make_lists(cells, cells.num_cells(), skip, add);
 }
 
 }  // namespace graspd

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory_resource>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "service/pipeline/cell_order.hpp"
@@ -28,6 +29,14 @@ struct NeighborhoodsConfig {
 /// kernels may read kPointPadding indices beyond the end of each list.
 class Neighborhoods {
  public:
+  using Storage = std::pmr::vector<RawVector<std::uint32_t>>;
+
+  Neighborhoods() = default;
+  /// points: those that are not skipped, ascending; lists: of every point, empty ones of those that are;
+  /// storage: what the lists are in.
+  Neighborhoods(RawVector<std::uint32_t> points, RawVector<NeighborList> lists, Storage storage)
+      : points_(std::move(points)), lists_(std::move(lists)), storage_(std::move(storage)) {}
+
   [[nodiscard]] std::size_t size() const { return lists_.size(); }
   /// Those that are not skipped, ascending.
   [[nodiscard]] std::span<const std::uint32_t> points() const { return points_; }
@@ -37,10 +46,9 @@ class Neighborhoods {
   [[nodiscard]] const NeighborList& list(std::size_t point) const { return lists_[point]; }
 
  private:
-  friend class NeighborhoodLists;
   RawVector<std::uint32_t> points_;
   RawVector<NeighborList> lists_;
-  std::pmr::vector<RawVector<std::uint32_t>> storage_;
+  Storage storage_;
 };
 
 /// All points must be finite. The order within a list is fixed by the points' positions. skip: 1 for each
