@@ -142,10 +142,7 @@ PaddedPoints::PaddedPoints(const PointCloud& cloud, std::span<const std::uint32_
 }
 
 PointCloud points_at(const PointCloud& cloud, std::span<const std::uint32_t> indices) {
-  PointCloud points;
-  points.viewpoint = cloud.viewpoint;
-  points.resize(indices.size());
-  points.width = static_cast<int>(indices.size());
+  PointCloud points = unorganized_cloud(indices.size(), cloud.viewpoint);
   point_kernels().copy_at({cloud.x.data(), cloud.y.data(), cloud.z.data(), nullptr, cloud.size()}, indices,
                           {points.x.data(), points.y.data(), points.z.data(), nullptr});
   return points;

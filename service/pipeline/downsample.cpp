@@ -32,10 +32,7 @@ Downsampled thin_by_voxels(const PointCloud& cloud, float leaf_size_m) {
 }  // namespace
 
 PointCloud cell_means(const PointCloud& cloud, const CellOrder& cells) {
-  PointCloud means;
-  means.viewpoint = cloud.viewpoint;
-  means.resize(cells.num_cells());
-  means.width = static_cast<int>(cells.num_cells());
+  PointCloud means = unorganized_cloud(cells.num_cells(), cloud.viewpoint);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells.num_cells(), 2048), [&](const auto& range) {
     const std::size_t c = range.begin();
     point_kernels().set_means(cells.of(cloud, c, range.end()), means.x.data() + c, means.y.data() + c,

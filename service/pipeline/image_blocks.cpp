@@ -114,10 +114,7 @@ Downsampled thin_by_blocks(const PointCloud& cloud, const ImagePixels& pixels, c
     groups[g].add(p.x(), p.y(), p.z());
     result.voxel_of_point[i] = g;
   }
-  PointCloud& points = result.cloud;
-  points.viewpoint = cloud.viewpoint;
-  points.resize(groups.size());
-  points.width = static_cast<int>(groups.size());
+  PointCloud& points = result.cloud = unorganized_cloud(groups.size(), cloud.viewpoint);
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const auto n = static_cast<float>(groups[g].size);
     points.x[g] = groups[g].x + groups[g].sum_x / n;

@@ -37,4 +37,13 @@ struct PointCloud {
   }
 };
 
+/// Of so many points, which have no value yet.
+[[nodiscard]] inline PointCloud unorganized_cloud(std::size_t size, const Eigen::Vector3f& viewpoint) {
+  PointCloud cloud;
+  cloud.resize(size);
+  cloud.width = static_cast<int>(size);
+  cloud.viewpoint = viewpoint;
+  return cloud;
+}
+
 }  // namespace graspd

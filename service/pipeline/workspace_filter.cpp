@@ -82,10 +82,7 @@ WorkspaceResult filter_workspace(const PointCloud& cloud, const WorkspaceFilterC
     num_inside += chunk.num_inside;
     result.num_finite += chunk.num_finite;
   }
-  PointCloud& kept = result.cloud;
-  kept.viewpoint = cloud.viewpoint;
-  kept.resize(num_inside);
-  kept.width = static_cast<int>(num_inside);
+  PointCloud& kept = result.cloud = unorganized_cloud(num_inside, cloud.viewpoint);
   auto& positions = result.pixels.of_point;
   if (is_image(cloud)) {
     result.pixels.width = cloud.width;
