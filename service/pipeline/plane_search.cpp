@@ -162,12 +162,6 @@ int count_on(const Sample& sample, const Plane& plane, const PlaneLimits& limits
 
 }  // namespace
 
-float sample_weight(float distance_m) {
-  constexpr float kFar = 1;  // [m]
-  const float d = std::max(kFar, distance_m);
-  return 1 / (d * d);
-}
-
 std::optional<Plane> find_plane(CoarseSurface& coarse, int num_hypotheses, const PlaneLimits& limits,
                                 const Eigen::Vector3f& viewpoint) {
   if (coarse.size() < 3) return std::nullopt;

@@ -3,6 +3,7 @@
 // The largest plane that nothing is seen through: RANSAC over points and normals.
 #pragma once
 #include <Eigen/Core>
+#include <algorithm>
 #include <optional>
 
 #include "service/pipeline/coarse_surface.hpp"
@@ -18,7 +19,11 @@ struct PlaneLimits {
 
 /// How densely points at a distance [m] are sampled, 1 where all are alike. Far away by the part of the view
 /// that a piece of surface fills, but for the slant: a wall behind a table may be larger than it.
-[[nodiscard]] float sample_weight(float distance_m);
+[[nodiscard]] inline float sample_weight(float distance_m) {
+  constexpr float kFar = 1;  // [m]
+  const float d = std::max(kFar, distance_m);
+  return 1 / (d * d);
+}
 
 /// Of so many hypotheses the one with the most points on it less those seen through it: behind it, on lines
 /// of sight that pass it where its own points are. A support hides what is behind it; beyond its border the

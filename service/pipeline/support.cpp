@@ -42,8 +42,9 @@ std::pmr::vector<std::uint8_t> points_within(const RawVector<float>& heights, fl
   return is_within;
 }
 
-/// Least squares over the inliers among the points whose normal is there, each for those of its surroundings
-/// that it stands for. Returns about how many inliers there are among all.
+/// Least squares over the inliers among the points whose normal is there: those of the sample, each for the
+/// part of its surroundings that it stands for, and near an upper plane all. Returns about how many inliers
+/// there are among all points.
 float refine(const CoarseSurface& coarse, const PlaneLimits& limits, Plane& plane) {
   const std::pmr::vector<std::uint8_t> is_near =
       points_within(heights_above(plane, coarse.cloud()), limits.thickness_m);
