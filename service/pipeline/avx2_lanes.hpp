@@ -109,8 +109,9 @@ void set_means(const CellPoints& cells, float* x, float* y, float* z);
 void find_middles(const CellPoints& cells, std::uint32_t* out);
 
 // What a depth image is rendered with.
-void see_points(const ViewImage& view, const PointRange& points, const ViewPoints& out);
-void find_pixels(const ViewImage& view, const ViewPoints& points, std::size_t n, std::int32_t* out);
+void sum_directions(const ViewImage& view, const PointRange& points, DirectionSums& sums);
+void extend_slopes(const ViewImage& view, const PointRange& points, SlopeBounds& bounds);
+void find_pixels(const ViewImage& view, const PointRange& points, std::int32_t* pixels, float* depths);
 
 // What a check does with the points that it gathered.
 CircleSums sum_circle(const CircleWeights& weights, const float* xs, const float* ys, std::size_t n);

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numeric>
 #include <utility>
 
 namespace graspd {
@@ -30,35 +30,16 @@ Eigen::Matrix3f looking_along(const Eigen::Vector3f& forward) {
   return axes;
 }
 
-constexpr std::size_t kBlock = 128;
+PointRange range_of(const PointCloud& cloud) {
+  return {cloud.x.data(), cloud.y.data(), cloud.z.data(), nullptr, cloud.size()};
+}
 
-/// Some points in the axes of the view.
-struct ViewBlock {
-  std::size_t size;
-  float x[kBlock], y[kBlock], z[kBlock];
-
-  ViewBlock(const ViewImage& view, const PointCloud& cloud, std::size_t from)
-      : size(std::min(kBlock, cloud.size() - from)) {
-    point_kernels().see_points(
-        view, {cloud.x.data() + from, cloud.y.data() + from, cloud.z.data() + from, nullptr, size}, points());
-  }
-  [[nodiscard]] ViewPoints points() { return {x, y, z}; }
-};
-
-/// Of the unit vectors from the viewpoint to the points. view: along the axes of the cloud.
+/// Of the unit vectors from the viewpoint to the points.
 Eigen::Vector3f sum_of_directions(const ViewImage& view, const PointCloud& cloud) {
-  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-  float length[kBlock];
-  for (std::size_t from = 0; from < cloud.size(); from += kBlock) {
-    const ViewBlock block(view, cloud, from);
-    for (std::size_t k = 0; k < block.size; ++k) {
-      const float squared = block.x[k] * block.x[k] + block.y[k] * block.y[k] + block.z[k] * block.z[k];
-      length[k] = squared > 0 ? std::sqrt(squared) : 1.0f;
-    }
-    for (std::size_t k = 0; k < block.size; ++k)
-      sum += Eigen::Vector3f(block.x[k] / length[k], block.y[k] / length[k], block.z[k] / length[k]);
-  }
-  return sum;
+  DirectionSums sums{};
+  point_kernels().sum_directions(view, range_of(cloud), sums);
+  const auto sum = [](const float(&parts)[8]) { return std::accumulate(parts, parts + 8, 0.0f); };
+  return {sum(sums.x), sum(sums.y), sum(sums.z)};
 }
 
 /// The smallest and the largest column with a point in it.
@@ -169,24 +150,10 @@ void DepthMap::render(const PointCloud& cloud) {
   if (sum.norm() < 1e-3f) return;
   Eigen::Map<Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>(view_.axes[0]) = looking_along(sum.normalized());
 
-  float left = kMaxSlope, right = -kMaxSlope, top = kMaxSlope, bottom = -kMaxSlope;
-  const PointKernels& kernels = point_kernels();
-  float u[kBlock], v[kBlock];
-  for (std::size_t from = 0; from < cloud.size(); from += kBlock) {
-    const ViewBlock block(view_, cloud, from);
-    for (std::size_t k = 0; k < block.size; ++k) {
-      // NaN takes no part in the bounds.
-      const float z = block.z[k] > 0 ? block.z[k] : std::numeric_limits<float>::quiet_NaN();
-      u[k] = block.x[k] / z;
-      v[k] = block.y[k] / z;
-    }
-    kernels.extend_bounds(u, block.size, left, right);
-    kernels.extend_bounds(v, block.size, top, bottom);
-  }
-  left = std::max(left, -kMaxSlope);
-  right = std::min(right, kMaxSlope);
-  top = std::max(top, -kMaxSlope);
-  bottom = std::min(bottom, kMaxSlope);
+  SlopeBounds bounds{kMaxSlope, -kMaxSlope, kMaxSlope, -kMaxSlope};
+  point_kernels().extend_slopes(view_, range_of(cloud), bounds);
+  const float left = std::max(bounds.left, -kMaxSlope), right = std::min(bounds.right, kMaxSlope),
+              top = std::max(bounds.top, -kMaxSlope), bottom = std::min(bounds.bottom, kMaxSlope);
   if (right <= left || bottom <= top) return;
   // About one pixel a point, so that a closed surface leaves few gaps and an edge stays where it is.
   // Points on nearly one ray would have pixels beyond all numbers.
@@ -201,34 +168,41 @@ void DepthMap::render(const PointCloud& cloud) {
   view_.center[0] = 1 - focal * left;
   view_.center[1] = 1 - focal * top;
   splat(cloud);
-  close_gaps(std::max(view_.width, view_.height) / 10);
+  close_gaps(static_cast<std::size_t>(std::max(view_.width, view_.height)) / 10);
 }
 
 void DepthMap::splat(const PointCloud& cloud) {
+  constexpr std::size_t kBlock = 128;
   fill(0, depth_.size(), 0, kFree);
+  const PointRange all = range_of(cloud);
   std::int32_t pixel[kBlock];
-  for (std::size_t from = 0; from < cloud.size(); from += kBlock) {
-    ViewBlock block(view_, cloud, from);
-    point_kernels().find_pixels(view_, block.points(), block.size, pixel);
+  float depth[kBlock];
+  for (std::size_t from = 0; from < all.size; from += kBlock) {
+    const PointRange block{all.x + from, all.y + from, all.z + from, nullptr,
+                           std::min(kBlock, all.size - from)};
+    point_kernels().find_pixels(view_, block, pixel, depth);
     for (std::size_t k = 0; k < block.size; ++k) {
       if (pixel[k] < 0) continue;
       const auto at = static_cast<std::size_t>(pixel[k]);
-      if (depth_[at] != 0 && depth_[at] <= block.z[k]) continue;
-      depth_[at] = block.z[k];
+      if (depth_[at] != 0 && depth_[at] <= depth[k]) continue;
+      depth_[at] = depth[k];
       point_[at] = static_cast<std::int32_t>(from + k);
     }
   }
 }
 
-void DepthMap::close_gaps(int max_gap) {
-  for (int v = 0; v < view_.height; ++v) {
-    const std::size_t row = static_cast<std::size_t>(v) * static_cast<std::size_t>(view_.width);
-    int last = -1;
-    for (int u = 0; u < view_.width; ++u) {
-      if (depth_[row + static_cast<std::size_t>(u)] == 0) continue;
-      if (last >= 0 && u - last > 1 && u - last <= max_gap)
-        close_gap(row + static_cast<std::size_t>(last) + 1, row + static_cast<std::size_t>(u));
-      last = u;
+void DepthMap::close_gaps(std::size_t max_gap) {
+  const auto width = static_cast<std::size_t>(view_.width);
+  for (std::size_t row = 0; row < depth_.size(); row += width) {
+    const float* depth = depth_.data() + row;
+    std::size_t u = 0;
+    while (u < width && depth[u] == 0) ++u;
+    for (;;) {
+      while (u < width && depth[u] != 0) ++u;
+      const std::size_t gap = u;
+      while (u < width && depth[u] == 0) ++u;
+      if (u == width) break;
+      if (u - gap < max_gap) close_gap(row + gap, row + u);
     }
   }
 }

@@ -41,7 +41,8 @@ class DepthMap {
                             std::uint32_t at);
   void render(const PointCloud& cloud);
   void splat(const PointCloud& cloud);
-  void close_gaps(int max_gap);
+  /// Those of fewer pixels.
+  void close_gaps(std::size_t max_gap);
   /// Pixels [from, to) of a row, where nothing is seen, between two where something is.
   void close_gap(std::size_t from, std::size_t to);
   void fill(std::size_t from, std::size_t to, float depth, std::int32_t point);

@@ -207,9 +207,14 @@ struct ViewImage {
   std::int32_t beside = -1, above = -1, below = -1;
 };
 
-/// Coordinates of points along the axes of a view [m].
-struct ViewPoints {
-  float *x, *y, *z;
+/// Sums of unit vectors, in eight parts.
+struct DirectionSums {
+  float x[8], y[8], z[8];
+};
+
+/// Of x / z and y / z along the axes of a view.
+struct SlopeBounds {
+  float left, right, top, bottom;
 };
 
 /// Places in the cloud's frame that are looked at together [m].
@@ -314,11 +319,14 @@ struct PointKernels {
   /// image says for places beyond it.
   void (*find_hiders)(const ViewImage& image, const Probes& places, float margin_m,
                       std::int32_t (&hiders)[kProbes]);
-  /// Writes the points in the axes of the view. The range needs no indices.
-  void (*see_points)(const ViewImage& view, const PointRange& points, const ViewPoints& out);
-  /// Writes the pixels that n such points fall on, row by row, or -1 outside of the image and behind the
-  /// sensor.
-  void (*find_pixels)(const ViewImage& view, const ViewPoints& points, std::size_t n, std::int32_t* out);
+  /// Adds the unit vectors from the view's origin to the points, every eighth point to one part. The ranges
+  /// of this and the next two need no indices.
+  void (*sum_directions)(const ViewImage& view, const PointRange& points, DirectionSums& sums);
+  /// Widens the bounds to hold those of the points that are before the sensor.
+  void (*extend_slopes)(const ViewImage& view, const PointRange& points, SlopeBounds& bounds);
+  /// Writes the pixels that points fall on, row by row, or -1 outside of the image and behind the sensor, and
+  /// how far forward they are [m].
+  void (*find_pixels)(const ViewImage& view, const PointRange& points, std::int32_t* pixels, float* depths);
   /// Writes the smallest of n values, ascending, or the largest, descending; infinities where there are
   /// fewer.
   void (*first_few)(const float* v, std::size_t n, bool largest, float (&out)[kFew]);
