@@ -101,9 +101,10 @@ void first_few(const float* v, std::size_t n, bool largest, float (&out)[kFew]);
 
 // What points are brought into order with.
 std::size_t count_changes(const std::uint32_t* keys, std::size_t n);
-void write_runs(const std::uint32_t* keys, std::size_t begin, std::size_t end, const RunOutput& out);
-void write_cells(const CellRun<std::uint32_t>* list, std::size_t begin, std::size_t end,
-                 const std::uint32_t* firsts, CellOutput out);
+void write_runs(const std::uint32_t* keys, std::size_t begin, std::size_t end, CellRun<std::uint32_t>* out,
+                std::size_t num);
+CellCounts count_cells(const CellRun<std::uint32_t>* list, std::size_t begin, std::size_t end);
+void write_cells(const CellRun<std::uint32_t>* list, std::size_t begin, std::size_t end, CellOutput out);
 void copy_at(const PointRange& points, std::span<const std::uint32_t> positions, const LocalOutput& out);
 void set_means(const CellPoints& cells, float* x, float* y, float* z);
 void find_middles(const CellPoints& cells, std::uint32_t* out);

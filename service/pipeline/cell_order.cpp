@@ -15,47 +15,40 @@
 namespace graspd {
 namespace {
 
-/// Where a part of the sorted runs begins.
-struct PartBegin {
-  std::uint32_t cell = 0, point = 0;
-};
-
 template <class Key>
-PartBegin count_part(const Runs<Key>& runs, std::size_t begin, std::size_t end) {
-  const CellRun<Key>* list = runs.list.data();
-  PartBegin sum;
-  for (std::size_t r = begin; r < end; ++r) {
-    sum.cell += r == 0 || list[r].key != list[r - 1].key ? 1 : 0;
-    sum.point += runs.starts[list[r].number + 1] - runs.starts[list[r].number];
-  }
-  return sum;
-}
-
-template <class Key>
-void set_cells(const Runs<Key>& runs, CellOrder& order) {
-  const std::size_t n = runs.list.size();
-  std::pmr::vector<PartBegin> begins((n + kPart - 1) / kPart);
+void set_cells(const RawVector<CellRun<Key>>& runs, CellOrder& order) {
+  constexpr bool kHasKernels = sizeof(Key) == sizeof(std::uint32_t);
+  const std::size_t n = runs.size();
+  std::pmr::vector<CellCounts> begins((n + kPart - 1) / kPart);  // first what is in each part
   for_each_part(n, [&](std::size_t p, std::size_t begin, std::size_t end) {
-    begins[p] = count_part(runs, begin, end);
+    if constexpr (kHasKernels)
+      begins[p] = point_kernels().count_cells(runs.data(), begin, end);
+    else
+      begins[p] = count_cells(runs.data(), begin, end);
   });
-  PartBegin sum;
-  for (PartBegin& begin : begins) {
-    const PartBegin size = std::exchange(begin, sum);
-    sum = {sum.cell + size.cell, sum.point + size.point};
+  CellCounts sum;
+  for (CellCounts& begin : begins) {
+    const CellCounts size = std::exchange(begin, sum);
+    sum = {sum.cells + size.cells, sum.points + size.points};
   }
   begins.push_back(sum);
-  order.points.resize(sum.point);
-  order.keys.resize(sum.cell);
-  order.starts.resize(sum.cell + 1);
+  order.points.resize(sum.points);
+  order.keys.resize(sum.cells);
+  order.starts.resize(sum.cells + 1);
   for_each_part(n, [&](std::size_t p, std::size_t begin, std::size_t end) {
-    const CellOutput out{order.keys.data() + begins[p].cell, order.starts.data() + begins[p].cell,
-                         order.points.data(), begins[p].point, begins[p + 1].point};
-    if constexpr (sizeof(Key) == sizeof(std::uint32_t))
-      point_kernels().write_cells(runs.list.data(), begin, end, runs.starts.data(), out);
+    const CellCounts &from = begins[p], &to = begins[p + 1];
+    const CellOutput out{order.keys.data() + from.cells,
+                         order.starts.data() + from.cells,
+                         order.points.data(),
+                         to.cells - from.cells,
+                         from.points,
+                         to.points};
+    if constexpr (kHasKernels)
+      point_kernels().write_cells(runs.data(), begin, end, out);
     else
-      write_cells(runs.list.data(), begin, end, runs.starts.data(), out);
+      write_cells(runs.data(), begin, end, out);
   });
-  order.starts.back() = sum.point;
+  order.starts.back() = sum.points;
 }
 
 /// Number of cells on an axis, with one to spare at either end; min: the first.
@@ -89,9 +82,10 @@ RawVector<Key> number_cells(const PointCloud& cloud, float per_cell, const CellK
 }
 
 template <class Key>
-Runs<Key> sorted_runs(const PointCloud& cloud, float per_cell, int num_bits, const CellKeys& order) {
-  Runs<Key> runs = find_runs(number_cells<Key>(cloud, per_cell, order));
-  sort_by_key(runs.list, num_bits);
+RawVector<CellRun<Key>> sorted_runs(const PointCloud& cloud, float per_cell, int num_bits,
+                                    const CellKeys& order) {
+  RawVector<CellRun<Key>> runs = find_runs(number_cells<Key>(cloud, per_cell, order));
+  sort_by_key(runs, num_bits);
   return runs;
 }
 
@@ -108,7 +102,7 @@ CellOrder order_by_cell(const PointCloud& cloud, float cell_m) {
   order.layer = order.row * cell_range(cloud.y, per_cell, min.y());
   const std::int64_t num_keys = order.layer * cell_range(cloud.z, per_cell, min.z());
   const int num_bits = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(num_keys)));
-  if (num_bits <= 32)
+  if (num_bits <= 32 && cloud.size() <= CellRun<std::uint32_t>::kFirstEnd)
     set_cells(sorted_runs<std::uint32_t>(cloud, per_cell, num_bits, order), order);
   else
     set_cells(sorted_runs<std::uint64_t>(cloud, per_cell, num_bits, order), order);

@@ -35,71 +35,83 @@ std::size_t set_begins(Sizes& sizes) {
   return sum;
 }
 
-/// Points of one cell that follow one another in the cloud: images and sorted voxels have long ones, which
-/// are sorted as one.
+/// How many runs there are among keys [begin, end) of a part, which begins one.
 template <class Key>
-struct Runs {
-  RawVector<CellRun<Key>> list;
-  RawVector<std::uint32_t> starts;  // first point of each by its number; one more at the end
-};
-
-/// Keys that differ from the one before; the first one begins a run, too.
-template <class Key>
-std::size_t count_runs(const Key* keys, std::size_t n) {
-  if constexpr (sizeof(Key) == sizeof(std::uint32_t)) return 1 + point_kernels().count_changes(keys, n);
+std::size_t count_runs(const Key* keys, std::size_t begin, std::size_t end) {
+  static_assert(kPart % CellRun<Key>::kMostPoints == 0);
   std::size_t num = 1;
-  for (std::size_t i = 1; i < n; ++i) num += keys[i] != keys[i - 1] ? 1 : 0;
+  if constexpr (sizeof(Key) == sizeof(std::uint32_t)) {
+    num += point_kernels().count_changes(keys + begin, end - begin);
+    for (std::size_t i = begin + CellRun<Key>::kMostPoints; i < end; i += CellRun<Key>::kMostPoints)
+      num += keys[i] == keys[i - 1] ? 1 : 0;
+  } else {
+    for (std::size_t i = begin + 1; i < end; ++i) num += begins_run(keys, i) ? 1 : 0;
+  }
   return num;
 }
 
-/// The runs among keys [begin, end), the first of which has the number r.
+/// Writes the runs among keys [begin, end).
 template <class Key>
-void write_runs(const Key* keys, std::size_t begin, std::size_t end, std::size_t r, Runs<Key>& runs) {
-  CellRun<Key>* list = runs.list.data();
-  runs.starts[r] = static_cast<std::uint32_t>(begin);
-  list[r] = {keys[begin], static_cast<std::uint32_t>(r)};
+void write_runs(const Key* keys, std::size_t begin, std::size_t end, CellRun<Key>* out) {
+  std::size_t first = begin;
   for (std::size_t i = begin + 1; i < end; ++i) {
-    if (keys[i] == keys[i - 1]) continue;
-    runs.starts[++r] = static_cast<std::uint32_t>(i);
-    list[r] = {keys[i], static_cast<std::uint32_t>(r)};
+    if (!begins_run(keys, i)) continue;
+    *out++ = {keys[first], first, i};
+    first = i;
   }
+  if (first < end) *out = {keys[first], first, end};
 }
 
+/// Points of one cell that follow one another in the cloud: images and sorted voxels have long runs of them,
+/// which are sorted as one.
 template <class Key>
-Runs<Key> find_runs(const RawVector<Key>& keys) {
+RawVector<CellRun<Key>> find_runs(const RawVector<Key>& keys) {
   const std::size_t n = keys.size();
   std::pmr::vector<std::uint32_t> begins((n + kPart - 1) / kPart);
   for_each_part(n, [&](std::size_t p, std::size_t begin, std::size_t end) {
-    begins[p] = static_cast<std::uint32_t>(count_runs(keys.data() + begin, end - begin));
+    begins[p] = static_cast<std::uint32_t>(count_runs(keys.data(), begin, end));
   });
-  Runs<Key> runs;
+  RawVector<CellRun<Key>> runs;
   const std::size_t num_runs = set_begins(begins);
-  runs.list.resize(num_runs);
-  runs.starts.resize(num_runs + 1);
+  runs.resize(num_runs);
   begins.push_back(static_cast<std::uint32_t>(num_runs));
   for_each_part(n, [&](std::size_t p, std::size_t begin, std::size_t end) {
+    CellRun<Key>* out = runs.data() + begins[p];
     if constexpr (sizeof(Key) == sizeof(std::uint32_t))
-      point_kernels().write_runs(keys.data(), begin, end,
-                                 {runs.list.data(), runs.starts.data(), begins[p], begins[p + 1]});
+      point_kernels().write_runs(keys.data(), begin, end, out, begins[p + 1] - begins[p]);
     else
-      write_runs(keys.data(), begin, end, begins[p], runs);
+      write_runs(keys.data(), begin, end, out);
   });
-  runs.starts.back() = static_cast<std::uint32_t>(n);
   return runs;
 }
 
-/// Writes the points of sorted runs [begin, end), and those cells that begin there. firsts: first point of
-/// each run by its number; one more at the end.
 template <class Key>
-void write_cells(const CellRun<Key>* list, std::size_t begin, std::size_t end, const std::uint32_t* firsts,
-                 CellOutput out) {
+bool begins_cell(const CellRun<Key>* list, std::size_t r) {
+  return r == 0 || list[r].key != list[r - 1].key;
+}
+
+/// Of sorted runs [begin, end).
+template <class Key>
+CellCounts count_cells(const CellRun<Key>* list, std::size_t begin, std::size_t end) {
+  CellCounts sum;
+  for (std::size_t r = begin; r < end; ++r) {
+    sum.cells += begins_cell(list, r) ? 1 : 0;
+    sum.points += list[r].size();
+  }
+  return sum;
+}
+
+/// Writes the points of sorted runs [begin, end), and those cells that begin there.
+template <class Key>
+void write_cells(const CellRun<Key>* list, std::size_t begin, std::size_t end, CellOutput out) {
   std::uint32_t at = out.first;
   for (std::size_t r = begin; r < end; ++r) {
-    if (r == 0 || list[r].key != list[r - 1].key) {
+    if (begins_cell(list, r)) {
       *out.keys++ = static_cast<std::int64_t>(list[r].key);
       *out.starts++ = at;
     }
-    for (std::uint32_t i = firsts[list[r].number]; i != firsts[list[r].number + 1]; ++i) out.points[at++] = i;
+    const std::uint32_t first = list[r].first(), last = first + list[r].size();
+    for (std::uint32_t i = first; i != last; ++i) out.points[at++] = i;
   }
 }
 

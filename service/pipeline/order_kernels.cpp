@@ -11,22 +11,6 @@ namespace graspd {
 namespace portable {
 namespace {
 
-/// The runs that begin among keys [i, end); r: number of the next.
-void write_rest(const std::uint32_t* keys, std::size_t i, std::size_t end, std::size_t r,
-                const RunOutput& out) {
-  for (; i < end; ++i) {
-    if (keys[i] == keys[i - 1]) continue;
-    out.starts[r] = static_cast<std::uint32_t>(i);
-    out.list[r] = {keys[i], static_cast<std::uint32_t>(r)};
-    ++r;
-  }
-}
-
-void write_first(const std::uint32_t* keys, std::size_t begin, const RunOutput& out) {
-  out.starts[out.first] = static_cast<std::uint32_t>(begin);
-  out.list[out.first] = {keys[begin], static_cast<std::uint32_t>(out.first)};
-}
-
 void copy_point(const PointRange& points, std::size_t i, const LocalOutput& out, std::size_t to) {
   out.a[to] = points.x[i];
   out.f[to] = points.y[i];
@@ -42,15 +26,17 @@ std::size_t count_changes(const std::uint32_t* keys, std::size_t n) {
   return num;
 }
 
-void write_runs(const std::uint32_t* keys, std::size_t begin, std::size_t end, const RunOutput& out) {
-  if (begin == end) return;
-  write_first(keys, begin, out);
-  write_rest(keys, begin + 1, end, out.first + 1, out);
+void write_runs(const std::uint32_t* keys, std::size_t begin, std::size_t end, CellRun<std::uint32_t>* out,
+                std::size_t /*num*/) {
+  graspd::write_runs(keys, begin, end, out);
 }
 
-void write_cells(const CellRun<std::uint32_t>* list, std::size_t begin, std::size_t end,
-                 const std::uint32_t* firsts, CellOutput out) {
-  graspd::write_cells(list, begin, end, firsts, out);
+CellCounts count_cells(const CellRun<std::uint32_t>* list, std::size_t begin, std::size_t end) {
+  return graspd::count_cells(list, begin, end);
+}
+
+void write_cells(const CellRun<std::uint32_t>* list, std::size_t begin, std::size_t end, CellOutput out) {
+  graspd::write_cells(list, begin, end, out);
 }
 
 void copy_at(const PointRange& points, std::span<const std::uint32_t> positions, const LocalOutput& out) {
@@ -76,10 +62,25 @@ GRASPD_AVX2 inline void store_all(void* to, __m256i v) {
   _mm256_storeu_si256(static_cast<__m256i*>(to), v);
 }
 
-/// The lanes of eight keys that differ from the one before.
-GRASPD_AVX2 inline unsigned changes(const std::uint32_t* keys) {
-  const __m256i same = _mm256_cmpeq_epi32(load(keys), load(keys - 1));
-  return static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(same))) ^ 0xff;
+/// The lanes of the eight points from i on that begin a run.
+GRASPD_AVX2 inline unsigned run_begins(const std::uint32_t* keys, std::size_t i) {
+  const __m256i same = _mm256_cmpeq_epi32(load(keys + i), load(keys + i - 1));
+  const unsigned changes = static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(same))) ^ 0xff;
+  const std::size_t to_next = (0 - i) % CellRun<std::uint32_t>::kMostPoints;
+  return to_next < 8 ? changes | 1u << to_next : changes;
+}
+
+/// From the first points of runs, in the place of what runs are packed in, to both; end: of the last one.
+GRASPD_AVX2 void pack(CellRun<std::uint32_t>* runs, std::size_t num, std::size_t end) {
+  constexpr int kSizeBits = CellRun<std::uint32_t>::kSizeBits;
+  std::size_t r = 0;
+  for (; r + 4 < num; r += 4) {
+    const __m256i here = load(runs + r), size = _mm256_sub_epi32(load(runs + r + 1), here);
+    const __m256i packed =
+        _mm256_add_epi32(_mm256_slli_epi32(here, kSizeBits), _mm256_sub_epi32(size, _mm256_set1_epi32(1)));
+    store_all(runs + r, _mm256_blend_epi32(here, packed, 0xaa));
+  }
+  for (; r < num; ++r) runs[r] = {runs[r].key, runs[r].points, r + 1 < num ? runs[r + 1].points : end};
 }
 
 }  // namespace
@@ -97,39 +98,119 @@ GRASPD_AVX2 std::size_t count_changes(const std::uint32_t* keys, std::size_t n) 
 }
 
 GRASPD_AVX2 void write_runs(const std::uint32_t* keys, std::size_t begin, std::size_t end,
-                            const RunOutput& out) {
+                            CellRun<std::uint32_t>* out, std::size_t num) {
   if (begin == end) return;
-  portable::write_first(keys, begin, out);
-  std::size_t i = begin + 1, r = out.first + 1;
-  for (; i + 8 <= end && r + 8 <= out.last; i += 8) {
-    const unsigned mask = changes(keys + i);
+  const auto write_first = [&](std::size_t r, std::size_t i) {
+    out[r].key = keys[i];
+    out[r].points = static_cast<std::uint32_t>(i);
+  };
+  write_first(0, begin);
+  std::size_t i = begin + 1, r = 1;
+  for (; i + 8 <= end && r + 8 <= num; i += 8) {
+    const unsigned mask = run_begins(keys, i);
     if (mask == 0) continue;
-    const __m256i lanes = lanes_of(mask), number = from(r),
-                  key = _mm256_permutevar8x32_epi32(load(keys + i), lanes);
-    store_all(out.starts + r, _mm256_permutevar8x32_epi32(from(i), lanes));
-    const __m256i low = _mm256_unpacklo_epi32(key, number), high = _mm256_unpackhi_epi32(key, number);
-    store_all(out.list + r, _mm256_permute2x128_si256(low, high, 0x20));
-    store_all(out.list + r + 4, _mm256_permute2x128_si256(low, high, 0x31));
+    const __m256i lanes = lanes_of(mask), key = _mm256_permutevar8x32_epi32(load(keys + i), lanes),
+                  first = _mm256_permutevar8x32_epi32(from(i), lanes);
+    const __m256i low = _mm256_unpacklo_epi32(key, first), high = _mm256_unpackhi_epi32(key, first);
+    store_all(out + r, _mm256_permute2x128_si256(low, high, 0x20));
+    store_all(out + r + 4, _mm256_permute2x128_si256(low, high, 0x31));
     r += static_cast<std::size_t>(std::popcount(mask));
   }
-  portable::write_rest(keys, i, end, r, out);
+  for (; i < end; ++i)
+    if (begins_run(keys, i)) write_first(r++, i);
+  pack(out, num, end);
 }
 
-GRASPD_AVX2 void write_cells(const CellRun<std::uint32_t>* list, std::size_t begin, std::size_t end,
-                             const std::uint32_t* firsts, CellOutput out) {
-  std::uint32_t at = out.first;
-  for (std::size_t r = begin; r < end; ++r) {
-    if (r == 0 || list[r].key != list[r - 1].key) {
-      *out.keys++ = std::int64_t{list[r].key};
-      *out.starts++ = at;
-    }
-    const std::uint32_t first = firsts[list[r].number], last = firsts[list[r].number + 1];
-    // In blocks, of which the last one brings some of what follows: the next run overwrites it.
-    std::uint32_t i = first, to = at;
-    for (; i < last && to + 8 <= out.last; i += 8, to += 8) store_all(out.points + to, from(i));
-    for (; i < last; ++i) out.points[to++] = i;
-    at += last - first;
+GRASPD_AVX2 CellCounts count_cells(const CellRun<std::uint32_t>* list, std::size_t begin, std::size_t end) {
+  if (begin == end) return {};
+  CellCounts sum = graspd::count_cells(list, begin, begin + 1);
+  std::size_t r = begin + 1;
+  // Keys and what goes with them in turns: both take part, and half of it counts.
+  __m256i same = _mm256_setzero_si256(), sizes = same;  // sizes are less one for each
+  const __m256i size_bits = _mm256_set1_epi32(CellRun<std::uint32_t>::kMostPoints - 1);
+  for (; r + 4 <= end; r += 4) {
+    const __m256i runs = load(list + r);
+    same = _mm256_sub_epi32(same, _mm256_cmpeq_epi32(runs, load(list + r - 1)));
+    sizes = _mm256_add_epi32(sizes, _mm256_and_si256(runs, size_bits));
   }
+  alignas(32) std::uint32_t num_same[8], sum_of_sizes[8];
+  _mm256_store_si256(reinterpret_cast<__m256i*>(num_same), same);
+  _mm256_store_si256(reinterpret_cast<__m256i*>(sum_of_sizes), sizes);
+  const auto num = static_cast<std::uint32_t>(r - begin - 1);
+  sum.cells += num - (num_same[0] + num_same[2] + num_same[4] + num_same[6]);
+  sum.points += num + sum_of_sizes[1] + sum_of_sizes[3] + sum_of_sizes[5] + sum_of_sizes[7];
+  const CellCounts rest = graspd::count_cells(list, r, end);
+  return {sum.cells + rest.cells, sum.points + rest.points};
+}
+
+namespace {
+
+/// The sum of each lane and those before it.
+GRASPD_AVX2 inline __m256i sums_up_to(__m256i v) {
+  v = _mm256_add_epi32(v, _mm256_slli_si256(v, 4));
+  v = _mm256_add_epi32(v, _mm256_slli_si256(v, 8));
+  const __m256i lower = _mm256_permutevar8x32_epi32(v, _mm256_set1_epi32(3));
+  return _mm256_add_epi32(v, _mm256_blend_epi32(_mm256_setzero_si256(), lower, 0xf0));
+}
+
+/// Eight runs.
+struct EightRuns {
+  __m256i keys, points;
+};
+
+GRASPD_AVX2 inline EightRuns load_runs(const CellRun<std::uint32_t>* list) {
+  const __m256 a = _mm256_castsi256_ps(load(list)), b = _mm256_castsi256_ps(load(list + 4));
+  // Of each half of a and b in turns.
+  const __m256i keys = _mm256_castps_si256(_mm256_shuffle_ps(a, b, 0x88)),
+                points = _mm256_castps_si256(_mm256_shuffle_ps(a, b, 0xdd));
+  return {_mm256_permute4x64_epi64(keys, 0xd8), _mm256_permute4x64_epi64(points, 0xd8)};
+}
+
+}  // namespace
+
+GRASPD_AVX2 void write_cells(const CellRun<std::uint32_t>* list, std::size_t begin, std::size_t end,
+                             CellOutput out) {
+  constexpr int kSizeBits = CellRun<std::uint32_t>::kSizeBits;
+  const __m256i size_bits = _mm256_set1_epi32(CellRun<std::uint32_t>::kMostPoints - 1);
+  const __m256i one = _mm256_set1_epi32(1);
+  alignas(32) std::uint32_t first[8], at[8], size[8];
+  std::size_t r = begin;
+  const auto go_on = [&](std::uint32_t num_cells, std::uint32_t position) {
+    out.keys += num_cells;
+    out.starts += num_cells;
+    out.num_cells -= num_cells;
+    out.first = position;
+  };
+  if (begin == 0 && end > 0) {
+    graspd::write_cells(list, 0, 1, out);
+    go_on(1, out.first + list[r++].size());
+  }
+  for (; r + 8 <= end && out.num_cells >= 8; r += 8) {
+    const EightRuns runs = load_runs(list + r), before = load_runs(list + r - 1);
+    const __m256i sizes = _mm256_add_epi32(_mm256_and_si256(runs.points, size_bits), one);
+    const __m256i ends = _mm256_add_epi32(sums_up_to(sizes), _mm256_set1_epi32(static_cast<int>(out.first)));
+    const auto next = static_cast<std::uint32_t>(_mm256_extract_epi32(ends, 7));
+    if (next + 8 > out.last) break;
+    const __m256i starts = _mm256_sub_epi32(ends, sizes);
+    const auto same = static_cast<unsigned>(
+        _mm256_movemask_ps(_mm256_castsi256_ps(_mm256_cmpeq_epi32(runs.keys, before.keys))));
+    const unsigned mask = same ^ 0xff;
+    const __m256i lanes = lanes_of(mask), keys = _mm256_permutevar8x32_epi32(runs.keys, lanes);
+    store_all(out.keys, _mm256_cvtepu32_epi64(_mm256_castsi256_si128(keys)));
+    store_all(out.keys + 4, _mm256_cvtepu32_epi64(_mm256_extracti128_si256(keys, 1)));
+    store_all(out.starts, _mm256_permutevar8x32_epi32(starts, lanes));
+    store_all(first, _mm256_srli_epi32(runs.points, kSizeBits));
+    store_all(at, starts);
+    // In blocks, of which the last one brings some of what follows: the next run overwrites it.
+    for (int k = 0; k < 8; ++k) store_all(out.points + at[k], from(first[k]));
+    if (_mm256_movemask_epi8(_mm256_cmpgt_epi32(sizes, _mm256_set1_epi32(8))) != 0) {
+      store_all(size, sizes);
+      for (int k = 0; k < 8; ++k)
+        for (std::uint32_t i = 8; i < size[k]; ++i) out.points[at[k] + i] = first[k] + i;
+    }
+    go_on(static_cast<std::uint32_t>(std::popcount(mask)), next);
+  }
+  graspd::write_cells(list, r, end, out);
 }
 
 GRASPD_AVX2 void copy_at(const PointRange& points, std::span<const std::uint32_t> positions,

@@ -24,25 +24,44 @@ struct PointSpan {
   std::uint32_t begin, end;
 };
 
-/// Points that follow one another and lie in the cell with this key, and their number among all such runs.
+/// Points that follow one another and lie in the cell with this key. The first one and how many there are
+/// share one number: what is sorted stays small.
 template <class Key>
 struct CellRun {
-  Key key;
-  std::uint32_t number;
+  static constexpr int kSizeBits = 10;
+  static constexpr Key kMostPoints = Key{1} << kSizeBits;
+  /// Of the first points that there is room for.
+  static constexpr std::uint64_t kFirstEnd = std::uint64_t{1} << (8 * sizeof(Key) - kSizeBits);
+
+  Key key, points;
+
+  CellRun() = default;
+  CellRun(Key cell, std::size_t begin, std::size_t end)
+      : key(cell), points(static_cast<Key>(begin << kSizeBits | (end - begin - 1))) {}
+  [[nodiscard]] std::uint32_t first() const { return static_cast<std::uint32_t>(points >> kSizeBits); }
+  [[nodiscard]] std::uint32_t size() const {
+    return static_cast<std::uint32_t>(points & (kMostPoints - 1)) + 1;
+  }
 };
 
-/// Where runs go, and the first points of each: those with the numbers [first, last).
-struct RunOutput {
-  CellRun<std::uint32_t>* list;
-  std::uint32_t* starts;
-  std::size_t first, last;
+/// Whether a run begins with point i, which is not the first one: where another cell does, and so often that
+/// no run is too long.
+template <class Key>
+[[nodiscard]] inline bool begins_run(const Key* keys, std::size_t i) {
+  return keys[i] != keys[i - 1] || i % CellRun<Key>::kMostPoints == 0;
+}
+
+/// Of sorted runs.
+struct CellCounts {
+  std::uint32_t cells = 0;  ///< that begin there
+  std::uint32_t points = 0;
 };
 
-/// Where cells go, and their points: those at positions [first, last).
+/// Where the cells of a part of sorted runs go, and their points: those at positions [first, last).
 struct CellOutput {
   std::int64_t* keys;
   std::uint32_t *starts, *points;
-  std::uint32_t first, last;
+  std::uint32_t num_cells, first, last;
 };
 
 /// Points of some cells, by indices, those of one cell after the other; each has at least one.
@@ -337,12 +356,13 @@ struct PointKernels {
                        std::uint32_t* out);
   /// How many of n keys differ from the one before them.
   std::size_t (*count_changes)(const std::uint32_t* keys, std::size_t n);
-  /// Writes the runs of equal keys among [begin, end), and no others.
-  void (*write_runs)(const std::uint32_t* keys, std::size_t begin, std::size_t end, const RunOutput& out);
+  /// Writes the runs among keys [begin, end), of which there are num, and no others; see begins_run().
+  void (*write_runs)(const std::uint32_t* keys, std::size_t begin, std::size_t end,
+                     CellRun<std::uint32_t>* out, std::size_t num);
+  CellCounts (*count_cells)(const CellRun<std::uint32_t>* list, std::size_t begin, std::size_t end);
   /// Writes the points of sorted runs [begin, end), the cells that begin there and where their points do, and
-  /// no others; firsts: first point of each run by its number, one more at the end.
-  void (*write_cells)(const CellRun<std::uint32_t>* list, std::size_t begin, std::size_t end,
-                      const std::uint32_t* firsts, CellOutput out);
+  /// no others.
+  void (*write_cells)(const CellRun<std::uint32_t>* list, std::size_t begin, std::size_t end, CellOutput out);
   /// Copies the points at some positions, and these for indices unless they are null. The range needs no
   /// indices.
   void (*copy_at)(const PointRange& points, std::span<const std::uint32_t> positions, const LocalOutput& out);

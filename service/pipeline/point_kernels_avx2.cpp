@@ -243,13 +243,13 @@ GRASPD_AVX2 void number_cells(const CellGrid& grid, const float* x, const float*
 
 const PointKernels* avx2_kernels() {
   static constexpr PointKernels kKernels{
-      test_workspace, copy_chosen,    keep_inside,   count_inside,   meet_rows,  keep_near,
-      copy_inside,    sum_moments,    solve_planes,  count_on_plane, count_bent, find_links,
-      any_other,      list_above,     list_members,  list_unmarked,  sum_circle, sum_profile,
-      find_hiders,    sum_directions, extend_slopes, find_pixels,    first_few,  extend_bounds,
-      number_cells,   count_changes,  write_runs,    write_cells,    copy_at,    set_means,
-      find_middles,   tag_band,       keep_depths,   select_band,    select_own, extend_own,
-      mark_band};
+      test_workspace, copy_chosen,    keep_inside,   count_inside,   meet_rows,   keep_near,
+      copy_inside,    sum_moments,    solve_planes,  count_on_plane, count_bent,  find_links,
+      any_other,      list_above,     list_members,  list_unmarked,  sum_circle,  sum_profile,
+      find_hiders,    sum_directions, extend_slopes, find_pixels,    first_few,   extend_bounds,
+      number_cells,   count_changes,  write_runs,    count_cells,    write_cells, copy_at,
+      set_means,      find_middles,   tag_band,      keep_depths,    select_band, select_own,
+      extend_own,     mark_band};
   static const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("popcnt");
   return has_avx2 ? &kKernels : nullptr;
 }

@@ -24,31 +24,35 @@ std::vector<std::uint32_t> keys_in_runs(std::size_t n, double share) {
   return keys;
 }
 
+using Run32 = CellRun<std::uint32_t>;
+
 TEST(OrderKernels, FindRunsInAPartAndWriteNoMore) {
-  for (const double share : {0.0, 0.5, 0.95})
-    for (const std::size_t end : {3, 4, 11, 12, 40, 400}) {
+  for (const double share : {0.0, 0.5, 0.95, 1.0})
+    for (const std::size_t end : {3, 4, 11, 12, 40, 400, 1023, 1024, 1025, 1030, 5000}) {
       const std::vector<std::uint32_t> keys = keys_in_runs(end + 10, share);
       constexpr std::size_t kBegin = 3, kFirst = 2;
-      std::vector<std::uint32_t> starts;
-      for (std::size_t i = kBegin; i < end; ++i)
-        if (i == kBegin || keys[i] != keys[i - 1]) starts.push_back(static_cast<std::uint32_t>(i));
+      std::vector<std::size_t> starts;
+      std::size_t num_changes = 0;
+      for (std::size_t i = kBegin; i < end; ++i) {
+        if (i == kBegin || keys[i] != keys[i - 1] || i % 1024 == 0) starts.push_back(i);
+        num_changes += i > kBegin && keys[i] != keys[i - 1] ? 1 : 0;
+      }
       for (const Form& form : forms()) {
         if (end > kBegin) {
-          EXPECT_EQ(form.kernels->count_changes(keys.data() + kBegin, end - kBegin), starts.size() - 1)
+          EXPECT_EQ(form.kernels->count_changes(keys.data() + kBegin, end - kBegin), num_changes)
               << form.name;
         }
-        std::vector<CellRun<std::uint32_t>> list(kFirst + starts.size() + 1, {7, kUntouched});
-        std::vector<std::uint32_t> found(list.size(), kUntouched);
-        form.kernels->write_runs(keys.data(), kBegin, end,
-                                 {list.data(), found.data(), kFirst, kFirst + starts.size()});
+        const Run32 untouched(kUntouched, 7, 8);
+        std::vector<Run32> list(kFirst + starts.size() + 1, untouched);
+        form.kernels->write_runs(keys.data(), kBegin, end, list.data() + kFirst, starts.size());
         for (const std::size_t outside : {std::size_t{0}, kFirst - 1, list.size() - 1}) {
-          EXPECT_EQ(found[outside], kUntouched) << form.name;
-          EXPECT_EQ(list[outside].number, kUntouched) << form.name;
+          EXPECT_EQ(list[outside].key, untouched.key) << form.name;
+          EXPECT_EQ(list[outside].points, untouched.points) << form.name;
         }
         for (std::size_t k = 0; k < starts.size(); ++k) {
-          ASSERT_EQ(found[kFirst + k], starts[k]) << form.name << " " << share << " " << end;
-          ASSERT_EQ(list[kFirst + k].key, keys[starts[k]]);
-          ASSERT_EQ(list[kFirst + k].number, kFirst + k);
+          ASSERT_EQ(list[kFirst + k].key, keys[starts[k]]) << form.name << " " << share << " " << end;
+          ASSERT_EQ(list[kFirst + k].first(), starts[k]) << form.name << " " << share << " " << end;
+          ASSERT_EQ(list[kFirst + k].size(), (k + 1 < starts.size() ? starts[k + 1] : end) - starts[k]);
         }
       }
     }
@@ -91,29 +95,69 @@ TEST(OrderKernels, CopyPoints) {
   }
 }
 
-TEST(OrderKernels, WriteCellsInAPartAndNoMore) {
-  // Sorted runs of three cells, whose numbers are in no order; a part of them that begins within a cell.
-  const std::vector<CellRun<std::uint32_t>> list{{4, 2}, {4, 0},          {4, 3},
-                                                 {7, 1}, {0xfffffff0, 4}, {0xfffffff0, 5}};
-  const std::vector<std::uint32_t> firsts{0, 3, 20, 21, 30, 31, 40};
-  constexpr std::size_t kBegin = 1;
-  constexpr std::uint32_t kFirst = 5;
-  std::vector<std::uint32_t> expected;
-  for (std::size_t r = kBegin; r < list.size(); ++r)
-    for (std::uint32_t i = firsts[list[r].number]; i < firsts[list[r].number + 1]; ++i) expected.push_back(i);
-  for (const Form& form : forms()) {
-    std::vector<std::int64_t> keys(3, -1);
-    std::vector<std::uint32_t> starts(3, kUntouched), points(kFirst + expected.size() + 1, kUntouched);
-    form.kernels->write_cells(list.data(), kBegin, list.size(), firsts.data(),
-                              {keys.data(), starts.data(), points.data(), kFirst,
-                               kFirst + static_cast<std::uint32_t>(expected.size())});
-    EXPECT_EQ(keys, (std::vector<std::int64_t>{7, 0xfffffff0, -1})) << form.name;
-    EXPECT_EQ(starts, (std::vector<std::uint32_t>{kFirst + 3 + 9, kFirst + 3 + 9 + 17, kUntouched}))
-        << form.name;
-    EXPECT_EQ(points[kFirst - 1], kUntouched);
-    EXPECT_EQ(points.back(), kUntouched) << form.name;
-    for (std::size_t k = 0; k < expected.size(); ++k) EXPECT_EQ(points[kFirst + k], expected[k]) << form.name;
+/// Sorted runs of a cloud's points, of up to so many each.
+std::vector<Run32> sorted_runs(std::size_t n, std::size_t most_points) {
+  std::mt19937 random(static_cast<std::uint32_t>(n));
+  std::vector<std::size_t> starts{0};
+  for (std::size_t r = 0; r < n; ++r) starts.push_back(starts.back() + 1 + random() % most_points);
+  std::vector<Run32> list;
+  std::uint32_t key = 4;
+  for (std::size_t r = 0; r < n; ++r) {
+    const std::size_t at = r * 7 % n;  // in no order
+    list.emplace_back(key, starts[at], starts[at + 1]);
+    if (random() % 2 != 0) key += r % 50 == 49 ? 0x10000000 : 3;
   }
+  return list;
+}
+
+/// What is written for a part of them.
+struct Written {
+  std::vector<std::int64_t> keys;
+  std::vector<std::uint32_t> starts, points;
+  bool operator==(const Written&) const = default;
+};
+
+constexpr std::uint32_t kFirstPoint = 5;
+
+Written expected_cells(const std::vector<Run32>& list, std::size_t begin) {
+  Written written;
+  for (std::size_t r = begin; r < list.size(); ++r) {
+    if (r == 0 || list[r].key != list[r - 1].key) {
+      written.keys.push_back(list[r].key);
+      written.starts.push_back(kFirstPoint + static_cast<std::uint32_t>(written.points.size()));
+    }
+    for (std::uint32_t k = 0; k < list[r].size(); ++k) written.points.push_back(list[r].first() + k);
+  }
+  return written;
+}
+
+TEST(OrderKernels, WriteCellsInAPartAndNoMore) {
+  for (const std::size_t most_points : {1, 4, 9, 40})
+    for (const std::size_t size : {1, 2, 8, 9, 17, 41, 300})
+      for (const std::size_t begin : {std::size_t{0}, std::size_t{1}, size / 2}) {
+        const std::vector<Run32> list = sorted_runs(size, most_points);
+        const Written expected = expected_cells(list, begin);
+        for (const Form& form : forms()) {
+          const CellCounts counts = form.kernels->count_cells(list.data(), begin, size);
+          ASSERT_EQ(counts.cells, expected.keys.size()) << form.name << " " << size << " " << begin;
+          ASSERT_EQ(counts.points, expected.points.size()) << form.name << " " << size << " " << begin;
+          Written written{std::vector<std::int64_t>(counts.cells + 1, -1),
+                          std::vector<std::uint32_t>(counts.cells + 1, kUntouched),
+                          std::vector<std::uint32_t>(kFirstPoint + counts.points + 1, kUntouched)};
+          form.kernels->write_cells(list.data(), begin, size,
+                                    {written.keys.data(), written.starts.data(), written.points.data(),
+                                     counts.cells, kFirstPoint, kFirstPoint + counts.points});
+          EXPECT_EQ(written.keys.back(), -1) << form.name;
+          EXPECT_EQ(written.starts.back(), kUntouched) << form.name;
+          EXPECT_EQ(written.points.back(), kUntouched) << form.name;
+          EXPECT_EQ(written.points[kFirstPoint - 1], kUntouched) << form.name;
+          written.keys.pop_back();
+          written.starts.pop_back();
+          written.points.pop_back();
+          written.points.erase(written.points.begin(), written.points.begin() + kFirstPoint);
+          EXPECT_EQ(written, expected) << form.name << " " << most_points << " " << size << " " << begin;
+        }
+      }
 }
 
 /// Cells of many sizes, some of whose points come several times.
