@@ -7,9 +7,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "service/pipeline/point_kernels.hpp"
-#include "service/pipeline/raw_vector.hpp"
-
 namespace graspd {
 namespace {
 
@@ -29,25 +26,10 @@ constexpr float kMinTurningSpan = 0.013f;  // along a shorter one only its edges
 constexpr float kMaxUnseenBulge = 0.012f;  // beyond an edge beside seen space [m]
 constexpr float kSeenThrough = 0.003f;     // a place this far behind what is seen is not seen to be free [m]
 
-/// Points of the face near the end: distance inwards from the end, depth, and place along the major axis.
-/// With room for what the kernels read beyond the points.
-struct Face {
-  RawVector<float> in, z, a;
-  std::size_t size = 0;
-
-  explicit Face(std::size_t most)
-      : in(most + kPointPadding), z(most + kPointPadding), a(most + kPointPadding) {}
-  void add(float distance, float depth, float along) {
-    in[size] = distance;
-    z[size] = depth;
-    a[size++] = along;
-  }
-};
-
 /// z = c0 + c1 in + c2 in^2 (+ c3 a) by iteratively reweighted least squares (Cauchy weights, scale 2 mm). A
 /// face may be tilted along the major axis, too, by more than what its profile is asked for. Lengths are
-/// scaled to keep the normal equations well conditioned.
-Eigen::Vector3f fit_profile(Face face, float span) {
+/// scaled, those of the face too, to keep the normal equations well conditioned.
+Eigen::Vector3f fit_profile(EndFace& face, float span) {
   constexpr float kScale = 0.002f;
   for (std::size_t i = 0; i < face.size; ++i) {
     face.in[i] /= span;
@@ -71,11 +53,11 @@ Eigen::Vector3f fit_profile(Face face, float span) {
 struct EndPoints {
   int near = 0, facing = 0, seen = 0;
   Eigen::Vector3f facing_sum = Eigen::Vector3f::Zero();  // of the normals
-  Face face;
 };
 
-EndPoints collect_end(const ContactInput& in, float side, float end_m, float min_upright) {
-  EndPoints out{.face = Face(in.between.size())};
+EndPoints collect_end(const ContactInput& in, float side, float end_m, float min_upright, EndFace& face) {
+  EndPoints out;
+  face.start(in.between.size());
   const float length = std::min(kFaceLength, 0.7f * in.extent_m);
   const Eigen::Vector3f jaw = side * in.rotation.col(1), approach = in.rotation.col(2);
   for (const std::uint32_t k : in.between) {
@@ -91,12 +73,12 @@ EndPoints collect_end(const ContactInput& in, float side, float end_m, float min
         out.facing_sum += n;
       }
     }
-    if (-approach.dot(n) >= min_upright) out.face.add(inwards, in.local.z[k], in.local.a[k]);
+    if (-approach.dot(n) >= min_upright) face.add(inwards, in.local.z[k], in.local.a[k]);
   }
   return out;
 }
 
-bool too_small(const ContactInput& in, const Face& face) {
+bool too_small(const ContactInput& in, const EndFace& face) {
   return face.size < 8 || static_cast<float>(face.size) * in.area_per_point_m2 < kMinFaceArea;
 }
 
@@ -169,7 +151,7 @@ float unseen_bulge(const ContactInput& in, float side, float end_m, float end_de
 }
 
 /// A face whose wall is out of sight: which way it goes on decides.
-Contact edge_contact(const ContactInput& in, float side, float end_m, float hidden_share, const Face& face) {
+Contact edge_contact(const ContactInput& in, float side, float end_m, float hidden_share, EndFace& face) {
   float span = 1e-3f;
   for (std::size_t i = 0; i < face.size; ++i) span = std::max(span, face.in[i]);
   const Eigen::Vector3f c = fit_profile(face, span);
@@ -242,8 +224,8 @@ float circle_tolerance(const SceneView& scene) {
   return scene.support ? std::min(kMost, kLeast + kSigmas * scene.support->sigma_m) : kMost;
 }
 
-Contact find_contact(const ContactInput& in, float side, float end_m, float hidden_share) {
-  const EndPoints end = collect_end(in, side, end_m, hidden_share <= kSeenFree ? 0.5f : 0.7f);
+Contact find_contact(const ContactInput& in, float side, float end_m, float hidden_share, EndFace& face) {
+  const EndPoints end = collect_end(in, side, end_m, hidden_share <= kSeenFree ? 0.5f : 0.7f, face);
   if (end.near < 2) return {ContactKind::kNone, end_m, {}};
   if (static_cast<float>(end.facing) >= kWallShare * static_cast<float>(end.near))
     return {2 * end.seen >= end.near ? ContactKind::kWall : ContactKind::kCurvedEdge, end_m,
@@ -252,8 +234,8 @@ Contact find_contact(const ContactInput& in, float side, float end_m, float hidd
   if (side * in.rotation.col(1).dot(to_sensor) > kCameraSide) return {ContactKind::kNone, end_m, {}};
   if (is_thin_edge(in, side, end_m)) return {ContactKind::kThinEdge, end_m, {}};
   // A far side that turns away from the jaw is none to hold by.
-  if (2 * end.seen < end.near || too_small(in, end.face)) return {ContactKind::kNone, end_m, {}};
-  return edge_contact(in, side, end_m, hidden_share, end.face);
+  if (2 * end.seen < end.near || too_small(in, face)) return {ContactKind::kNone, end_m, {}};
+  return edge_contact(in, side, end_m, hidden_share, face);
 }
 
 }  // namespace graspd

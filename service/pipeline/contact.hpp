@@ -3,11 +3,14 @@
 // What a jaw would meet where the object ends on its side: a wall that was seen, an edge whose wall is out of
 // sight, or nothing that can be relied on.
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
 #include "service/pipeline/circle_fit.hpp"
 #include "service/pipeline/gripper.hpp"
+#include "service/pipeline/point_kernels.hpp"
+#include "service/pipeline/raw_vector.hpp"
 #include "service/pipeline/scene_view.hpp"
 
 namespace graspd {
@@ -49,6 +52,25 @@ struct Contact {
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();
 };
 
+/// Points of the face near an end: distance inwards from the end, depth, and place along the major axis.
+/// Working memory of find_contact().
+struct EndFace {
+  RawVector<float> in, z, a;
+  std::size_t size = 0;
+
+  /// Empties it; room for so many and for what the kernels read beyond them.
+  void start(std::size_t most) {
+    size = 0;
+    if (in.size() >= most + kPointPadding) return;
+    for (RawVector<float>* v : {&in, &z, &a}) v->resize(2 * (most + kPointPadding));
+  }
+  void add(float distance, float depth, float along) {
+    in[size] = distance;
+    z[size] = depth;
+    a[size++] = along;
+  }
+};
+
 /// Of circles that a profile may be part of; larger ones count as flat [m].
 inline constexpr float kMaxRadius = 0.06f;
 
@@ -64,6 +86,7 @@ inline constexpr float kMaxRadius = 0.06f;
 
 /// side: -1 or +1 along the closing axis; end_m: where the object's seen points end there; hidden_share: of
 /// the finger's volume beside it.
-[[nodiscard]] Contact find_contact(const ContactInput& in, float side, float end_m, float hidden_share);
+[[nodiscard]] Contact find_contact(const ContactInput& in, float side, float end_m, float hidden_share,
+                                   EndFace& face);
 
 }  // namespace graspd

@@ -316,9 +316,9 @@ Failure Check::check_contacts() {
                            area_per_point(),
                            radians(config_.max_wall_angle_deg),
                            fit_circle(buffers_.profile, kMaxRadius, circle_tolerance(scene_))};
-  const Contact low = find_contact(input, -1, end_[0], finger_hidden_share(0, Hidden::kAtAll));
+  const Contact low = find_contact(input, -1, end_[0], finger_hidden_share(0, Hidden::kAtAll), buffers_.face);
   if (low.kind == ContactKind::kNone) return Failure::kContact;
-  const Contact high = find_contact(input, 1, end_[1], finger_hidden_share(1, Hidden::kAtAll));
+  const Contact high = find_contact(input, 1, end_[1], finger_hidden_share(1, Hidden::kAtAll), buffers_.face);
   if (high.kind == ContactKind::kNone) return Failure::kContact;
   margins_.contact = {low.kind, high.kind};
   margins_.grip = grip_margin(lean(low, high, input));

@@ -118,6 +118,7 @@ struct CheckBuffers {
   std::pmr::vector<std::uint8_t> marked;     ///< 1 for each mark of the profile that a point left
   std::pmr::vector<float> depths, widths;    ///< room for one value a point and the kernels' padding
   std::pmr::vector<Eigen::Vector2f> profile;
+  EndFace face;
 };
 
 /// Those of each thread. A check lends them to nobody else: it splits no work.

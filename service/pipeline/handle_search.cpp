@@ -19,19 +19,6 @@ namespace {
 
 constexpr std::size_t kMostSeedsInAllDirections = 16;
 
-/// Adds a unit vector unless one that differs by less than the angle is there; signless: opposite ones are
-/// the same.
-void add_distinct(std::pmr::vector<Eigen::Vector3f>& directions, const Eigen::Vector3f& v, float max_cosine,
-                  bool signless) {
-  if (!(v.norm() > 1e-3f)) return;
-  const Eigen::Vector3f unit = v.normalized();
-  for (const Eigen::Vector3f& other : directions) {
-    const float cosine = unit.dot(other);
-    if ((signless ? std::abs(cosine) : cosine) > max_cosine) return;
-  }
-  directions.push_back(unit);
-}
-
 Eigen::Matrix3f gripper_axes(const Eigen::Vector3f& outward, const Eigen::Vector3f& major) {
   Eigen::Matrix3f axes;
   axes.col(2) = -outward;
@@ -85,6 +72,16 @@ Eigen::Vector3f face_normal(const Normals& normals, const NearPoints& object, co
 
 }  // namespace
 
+void FewDirections::add_distinct(const Eigen::Vector3f& v, float max_cosine, bool signless) {
+  if (!(v.norm() > 1e-3f)) return;
+  const Eigen::Vector3f unit = v.normalized();
+  for (const Eigen::Vector3f& other : all()) {
+    const float cosine = unit.dot(other);
+    if ((signless ? std::abs(cosine) : cosine) > max_cosine) return;
+  }
+  add(unit);
+}
+
 HandleSearch::HandleSearch(const SearchInput& input, const Gripper& gripper, const HandleSearchConfig& config,
                            const std::pmr::vector<std::uint8_t>& wanted)
     : in_(input),
@@ -122,44 +119,43 @@ std::pmr::vector<HandleSearch::Seed> HandleSearch::spread_seeds(std::span<const 
   return seeds;
 }
 
-HandleSearch::Directions HandleSearch::outward_directions(std::uint32_t seed,
-                                                          const Eigen::Vector3f& n) const {
+FewDirections HandleSearch::outward_directions(std::uint32_t seed, const Eigen::Vector3f& n) const {
   const Eigen::Vector3f to_sensor = (in_.cloud.viewpoint - in_.cloud.point(seed)).normalized();
-  Directions outward;
-  add_distinct(outward, n, max_cosine_, false);
+  FewDirections suggested, outward;
+  suggested.add_distinct(n, max_cosine_, false);
   if (in_.support) {
-    add_distinct(outward, in_.support->plane.normal, max_cosine_, false);
-    add_distinct(outward, n + in_.support->plane.normal, max_cosine_, false);
+    suggested.add_distinct(in_.support->plane.normal, max_cosine_, false);
+    suggested.add_distinct(n + in_.support->plane.normal, max_cosine_, false);
   }
-  add_distinct(outward, to_sensor, max_cosine_, false);
-  std::erase_if(outward,
-                [&](const Eigen::Vector3f& o) { return o.dot(to_sensor) < config_.min_facing_cosine; });
+  suggested.add_distinct(to_sensor, max_cosine_, false);
+  for (const Eigen::Vector3f& o : suggested.all())
+    if (!(o.dot(to_sensor) < config_.min_facing_cosine)) outward.add(o);
   return outward;
 }
 
-HandleSearch::Directions HandleSearch::major_axes(std::size_t s, const Eigen::Vector3f& outward,
-                                                  SearchRound round) const {
+FewDirections HandleSearch::major_axes(std::size_t s, const Eigen::Vector3f& outward) const {
   const Segment& segment = in_.segments.list[s];
-  Directions suggested{rectangle_axes_[s], segment.normal.cross(rectangle_axes_[s]), segment.major,
-                       segment.minor};
-  if (in_.support) {
-    suggested.push_back(in_.support->plane.normal);
-    suggested.push_back(in_.support->plane.normal.cross(outward));
-  }
-  Directions axes;
-  axes.reserve(2 * suggested.size());
-  for (const Eigen::Vector3f& axis : suggested) {
+  FewDirections axes;
+  const auto add = [&](const Eigen::Vector3f& axis) {
     const Eigen::Vector3f across = axis - axis.dot(outward) * outward;
-    if (across.norm() < 0.3f) continue;
-    add_distinct(axes, across, max_cosine_, true);
-    add_distinct(axes, across.cross(outward), max_cosine_, true);
+    if (across.norm() < 0.3f) return;
+    axes.add_distinct(across, max_cosine_, true);
+    axes.add_distinct(across.cross(outward), max_cosine_, true);
+  };
+  add(rectangle_axes_[s]);
+  add(segment.normal.cross(rectangle_axes_[s]));
+  add(segment.major);
+  add(segment.minor);
+  if (in_.support) {
+    add(in_.support->plane.normal);
+    add(in_.support->plane.normal.cross(outward));
   }
-  return round == SearchRound::kAllDirections ? other_axes(outward, axes) : axes;
+  return axes;
 }
 
 /// Evenly spread axes, less those that were tried.
 HandleSearch::Directions HandleSearch::other_axes(const Eigen::Vector3f& outward,
-                                                  const Directions& tried) const {
+                                                  const FewDirections& tried) const {
   const Eigen::Vector3f u = outward.unitOrthogonal(), v = outward.cross(u);
   Directions axes;
   for (int i = 0; i < config_.all_directions; ++i) {
@@ -167,7 +163,7 @@ HandleSearch::Directions HandleSearch::other_axes(const Eigen::Vector3f& outward
         std::numbers::pi_v<float> * static_cast<float>(i) / static_cast<float>(config_.all_directions);
     const Eigen::Vector3f axis = std::cos(angle) * u + std::sin(angle) * v;
     const auto same = [&](const Eigen::Vector3f& t) { return std::abs(t.dot(axis)) > max_cosine_; };
-    if (std::none_of(tried.begin(), tried.end(), same)) axes.push_back(axis);
+    if (std::ranges::none_of(tried.all(), same)) axes.push_back(axis);
   }
   return axes;
 }
@@ -217,7 +213,9 @@ void HandleSearch::add_seeds(std::size_t object, SearchRound round, std::pmr::ve
     const std::size_t num_outward =
         all || is_first_round ? std::min(kFirst, seed.outward.size()) : seed.outward.size();
     for (std::size_t o = 0; o < num_outward; ++o) {
-      const Directions axes = major_axes(static_cast<std::size_t>(s), seed.outward[o], round);
+      const FewDirections suggested = major_axes(static_cast<std::size_t>(s), seed.outward[o]);
+      const Directions others = all ? other_axes(seed.outward[o], suggested) : Directions{};
+      const std::span<const Eigen::Vector3f> axes = all ? others : suggested.all();
       // The surface's own normal and axes first (paper, section 5), the support's normal next to them.
       for (std::size_t a = 0; a < axes.size(); ++a) {
         const bool is_first = o < kFirst && a < kFirst;

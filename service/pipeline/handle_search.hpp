@@ -56,6 +56,26 @@ enum class SearchRound : std::uint8_t { kSurface, kSurroundings, kAllDirections 
 inline constexpr std::array kSearchRounds{SearchRound::kSurface, SearchRound::kSurroundings,
                                           SearchRound::kAllDirections};
 
+/// A few unit vectors.
+class FewDirections {
+ public:
+  static constexpr std::size_t kMost = 12;
+
+  /// There must be room.
+  void add(const Eigen::Vector3f& unit) { directions_[size_++] = unit; }
+  /// Adds that of a vector unless it is too short to have one, or one is there whose cosine with it is
+  /// larger; signless: opposite ones are the same.
+  void add_distinct(const Eigen::Vector3f& v, float max_cosine, bool signless);
+
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] const Eigen::Vector3f& operator[](std::size_t i) const { return directions_[i]; }
+  [[nodiscard]] std::span<const Eigen::Vector3f> all() const { return {directions_.data(), size_}; }
+
+ private:
+  std::array<Eigen::Vector3f, kMost> directions_;
+  std::size_t size_ = 0;
+};
+
 class HandleSearch {
  public:
   /// All must outlive the search. wanted: 1 for each segment that candidates are asked for.
@@ -70,15 +90,14 @@ class HandleSearch {
   using Directions = std::pmr::vector<Eigen::Vector3f>;
   struct Seed {
     std::uint32_t point;
-    Directions outward;  // opposite to the approaches worth trying, the best first
+    FewDirections outward;  // opposite to the approaches worth trying, the best first
   };
   /// On the wanted segments.
   [[nodiscard]] std::pmr::vector<Seed> spread_seeds(std::span<const std::uint32_t> points) const;
   /// n: of the face that the seed is on.
-  [[nodiscard]] Directions outward_directions(std::uint32_t seed, const Eigen::Vector3f& n) const;
-  [[nodiscard]] Directions major_axes(std::size_t segment, const Eigen::Vector3f& outward,
-                                      SearchRound round) const;
-  [[nodiscard]] Directions other_axes(const Eigen::Vector3f& outward, const Directions& tried) const;
+  [[nodiscard]] FewDirections outward_directions(std::uint32_t seed, const Eigen::Vector3f& n) const;
+  [[nodiscard]] FewDirections major_axes(std::size_t segment, const Eigen::Vector3f& outward) const;
+  [[nodiscard]] Directions other_axes(const Eigen::Vector3f& outward, const FewDirections& tried) const;
   void add_bands(std::size_t segment, const Eigen::Vector3f& axis, std::pmr::vector<Candidate>& out) const;
   void add_seeds(std::size_t object, SearchRound round, std::pmr::vector<Candidate>& out) const;
 

@@ -95,8 +95,9 @@ std::array<Contact, 2> CheckScene::contacts(const Candidate& candidate, const Gr
                            depth_map_.ray_area(candidate.position),
                            radians(limits.max_wall_angle_deg),
                            fit_circle(profile, kMaxRadius, circle_tolerance(view_))};
-  return {find_contact(input, -1, low, hidden_share(candidate, gripper, low, -1)),
-          find_contact(input, 1, high, hidden_share(candidate, gripper, high, 1))};
+  EndFace face;
+  return {find_contact(input, -1, low, hidden_share(candidate, gripper, low, -1), face),
+          find_contact(input, 1, high, hidden_share(candidate, gripper, high, 1), face)};
 }
 
 }  // namespace graspd
