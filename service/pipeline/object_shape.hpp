@@ -10,6 +10,7 @@
 
 #include "service/pipeline/gripper.hpp"
 #include "service/pipeline/handle_check.hpp"
+#include "service/pipeline/raw_vector.hpp"
 #include "service/pipeline/surfaces.hpp"
 
 namespace graspd {
@@ -38,8 +39,12 @@ class ObjectShape {
   [[nodiscard]] std::optional<Eigen::Vector3f> long_axis() const;
 
  private:
+  /// Coordinates of the points.
+  [[nodiscard]] RawVector<float> along(const Eigen::Vector3f& axis) const;
+
   const Surfaces& surfaces_;
-  std::span<const std::uint32_t> points_;
+  std::span<const std::uint32_t> indices_;  // of the voxels
+  PointCloud points_;                       // the same
   std::int32_t object_;
   Eigen::Vector3f center_, sight_;
 };
