@@ -35,10 +35,11 @@ Sample take_sample(CoarseSurface& coarse, const Eigen::Vector3f& viewpoint) {
   const std::size_t n = coarse.size();
   RawVector<float> weights(n);
   float sum = 0, most = 0;
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < n; ++i)
     weights[i] = sample_weight((coarse.cloud().point(i) - viewpoint).norm());
-    sum += weights[i];
-    most = std::max(most, weights[i]);
+  for (const float weight : weights) {
+    sum += weight;
+    most = std::max(most, weight);
   }
   const float of_one = std::max(sum / kSampleSize, most);
   std::pmr::vector<std::uint8_t> is_in(n);

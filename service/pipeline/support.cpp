@@ -42,24 +42,38 @@ std::pmr::vector<std::uint8_t> points_within(const RawVector<float>& heights, fl
   return is_within;
 }
 
-/// Least squares over the inliers among the points whose normal is there: those of the sample, each for the
-/// part of its surroundings that it stands for, and near an upper plane all. Returns about how many inliers
-/// there are among all points.
-float refine(const CoarseSurface& coarse, const PlaneLimits& limits, Plane& plane) {
-  const std::pmr::vector<std::uint8_t> is_near =
-      points_within(heights_above(plane, coarse.cloud()), limits.thickness_m);
+/// A point whose normal is there, and how much of its surroundings it stands for.
+struct Witness {
+  std::uint32_t point;
+  double weight;
+};
+
+/// Those of the sample, and near an upper plane all.
+std::pmr::vector<Witness> witnesses(const CoarseSurface& coarse) {
+  std::pmr::vector<Witness> all;
+  for (std::uint32_t i = 0; i < coarse.size(); ++i) {
+    if (!coarse.has_normal(i)) continue;
+    const float distance = (coarse.cloud().point(i) - coarse.cloud().viewpoint).norm();
+    all.push_back({i, 1 / static_cast<double>(sample_weight(distance))});
+  }
+  return all;
+}
+
+/// Least squares over the inliers among the witnesses. Returns about how many inliers there are among all
+/// points.
+float refine(const CoarseSurface& coarse, const std::pmr::vector<Witness>& witnesses,
+             const PlaneLimits& limits, Plane& plane) {
+  const RawVector<float> heights = heights_above(plane, coarse.cloud());
+  int num_near = 0;
+  for (const float height : heights) num_near += int{std::abs(height) < limits.thickness_m};
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-  double num_near = 0, num_asked = 0, n = 0;
-  for (std::size_t i = 0; i < coarse.size(); ++i) {
-    if (is_near[i] == 0) continue;
-    ++num_near;
-    if (!coarse.has_normal(i)) continue;
-    const Eigen::Vector3f p = coarse.cloud().point(i);
-    const auto weight = 1 / static_cast<double>(sample_weight((p - coarse.cloud().viewpoint).norm()));
+  double num_asked = 0, n = 0;
+  for (const auto& [i, weight] : witnesses) {
+    if (!(std::abs(heights[i]) < limits.thickness_m)) continue;
     num_asked += weight;
     if (plane.normal.dot(coarse.normals().at(i)) <= limits.min_cosine) continue;
-    const Eigen::Vector3d q = p.cast<double>();
+    const Eigen::Vector3d q = coarse.cloud().point(i).cast<double>();
     sum += weight * q;
     squares += weight * q * q.transpose();
     n += weight;
@@ -71,7 +85,7 @@ float refine(const CoarseSurface& coarse, const PlaneLimits& limits, Plane& plan
   Eigen::Vector3f normal = solver.eigenvectors().col(0).cast<float>();
   if (normal.dot(plane.normal) < 0) normal = -normal;
   plane = {normal, -normal.dot(mean.cast<float>())};
-  return static_cast<float>(num_near * n / num_asked);
+  return static_cast<float>(static_cast<double>(num_near) * n / num_asked);
 }
 
 /// Largest number of points of a plane that hang together.
@@ -221,7 +235,8 @@ std::optional<Support> find_support(const PointCloud& cloud, const SupportConfig
       static_cast<std::size_t>(config.min_upper_area_m2 / (config.leaf_size_m * config.leaf_size_m));
   support.plane = highest_parallel(coarse, *hypothesis, limits, upper_points);
   float inliers = 0;
-  for (int round = 0; round < 3; ++round) inliers = refine(coarse, limits, support.plane);
+  const std::pmr::vector<Witness> asked = witnesses(coarse);
+  for (int round = 0; round < 3; ++round) inliers = refine(coarse, asked, limits, support.plane);
   if (inliers * config.leaf_size_m * config.leaf_size_m < config.min_area_m2) return std::nullopt;
   support.sigma_m = scatter(cloud, support.plane, config.thickness_m);
   support.is_support = points_of(support, cloud, config);
