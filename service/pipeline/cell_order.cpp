@@ -125,7 +125,7 @@ PaddedPoints::PaddedPoints(const PointCloud& cloud, std::span<const std::uint32_
       y_(order.size() + kPointPadding),
       z_(order.size() + kPointPadding),
       index_(order.size() + kPointPadding) {
-  const PointRange points{cloud.x.data(), cloud.y.data(), cloud.z.data(), nullptr, cloud.size()};
+  const PointRange points = range_of(cloud);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, order.size(), 16384), [&](const auto& range) {
     const std::size_t k = range.begin();
     point_kernels().copy_at(points, order.subspan(k, range.size()),
@@ -137,7 +137,7 @@ PaddedPoints::PaddedPoints(const PointCloud& cloud, std::span<const std::uint32_
 
 PointCloud points_at(const PointCloud& cloud, std::span<const std::uint32_t> indices) {
   PointCloud points = unorganized_cloud(indices.size(), cloud.viewpoint);
-  point_kernels().copy_at({cloud.x.data(), cloud.y.data(), cloud.z.data(), nullptr, cloud.size()}, indices,
+  point_kernels().copy_at(range_of(cloud), indices,
                           {points.x.data(), points.y.data(), points.z.data(), nullptr});
   return points;
 }

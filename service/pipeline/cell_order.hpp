@@ -57,6 +57,11 @@ struct CellOrder : CellKeys {
 /// The order of the same points once they have been put into it.
 [[nodiscard]] CellOrder in_order(CellOrder order);
 
+/// The points of a cloud in their own order, without indices.
+[[nodiscard]] inline PointRange range_of(const PointCloud& cloud) {
+  return {cloud.x.data(), cloud.y.data(), cloud.z.data(), nullptr, cloud.size()};
+}
+
 /// The points with these indices, as an unorganized cloud.
 [[nodiscard]] PointCloud points_at(const PointCloud& cloud, std::span<const std::uint32_t> indices);
 

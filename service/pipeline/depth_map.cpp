@@ -7,6 +7,8 @@
 #include <numeric>
 #include <utility>
 
+#include "service/pipeline/cell_order.hpp"
+
 namespace graspd {
 namespace {
 
@@ -28,10 +30,6 @@ Eigen::Matrix3f looking_along(const Eigen::Vector3f& forward) {
   axes.row(1) = forward.cross(right);
   axes.row(2) = forward;
   return axes;
-}
-
-PointRange range_of(const PointCloud& cloud) {
-  return {cloud.x.data(), cloud.y.data(), cloud.z.data(), nullptr, cloud.size()};
 }
 
 /// Of the unit vectors from the viewpoint to the points.

@@ -70,6 +70,27 @@ GRASPD_AVX2 inline unsigned run_begins(const std::uint32_t* keys, std::size_t i)
   return to_next < 8 ? changes | 1u << to_next : changes;
 }
 
+/// The sum of each lane and those before it.
+GRASPD_AVX2 inline __m256i sums_up_to(__m256i v) {
+  v = _mm256_add_epi32(v, _mm256_slli_si256(v, 4));
+  v = _mm256_add_epi32(v, _mm256_slli_si256(v, 8));
+  const __m256i lower = _mm256_permutevar8x32_epi32(v, _mm256_set1_epi32(3));
+  return _mm256_add_epi32(v, _mm256_blend_epi32(_mm256_setzero_si256(), lower, 0xf0));
+}
+
+/// Eight runs.
+struct EightRuns {
+  __m256i keys, points;
+};
+
+GRASPD_AVX2 inline EightRuns load_runs(const CellRun<std::uint32_t>* list) {
+  const __m256 a = _mm256_castsi256_ps(load(list)), b = _mm256_castsi256_ps(load(list + 4));
+  // Of each half of a and b in turns.
+  const __m256i keys = _mm256_castps_si256(_mm256_shuffle_ps(a, b, 0x88)),
+                points = _mm256_castps_si256(_mm256_shuffle_ps(a, b, 0xdd));
+  return {_mm256_permute4x64_epi64(keys, 0xd8), _mm256_permute4x64_epi64(points, 0xd8)};
+}
+
 /// From the first points of runs, in the place of what runs are packed in, to both; end: of the last one.
 GRASPD_AVX2 void pack(CellRun<std::uint32_t>* runs, std::size_t num, std::size_t end) {
   constexpr int kSizeBits = CellRun<std::uint32_t>::kSizeBits;
@@ -142,31 +163,6 @@ GRASPD_AVX2 CellCounts count_cells(const CellRun<std::uint32_t>* list, std::size
   const CellCounts rest = graspd::count_cells(list, r, end);
   return {sum.cells + rest.cells, sum.points + rest.points};
 }
-
-namespace {
-
-/// The sum of each lane and those before it.
-GRASPD_AVX2 inline __m256i sums_up_to(__m256i v) {
-  v = _mm256_add_epi32(v, _mm256_slli_si256(v, 4));
-  v = _mm256_add_epi32(v, _mm256_slli_si256(v, 8));
-  const __m256i lower = _mm256_permutevar8x32_epi32(v, _mm256_set1_epi32(3));
-  return _mm256_add_epi32(v, _mm256_blend_epi32(_mm256_setzero_si256(), lower, 0xf0));
-}
-
-/// Eight runs.
-struct EightRuns {
-  __m256i keys, points;
-};
-
-GRASPD_AVX2 inline EightRuns load_runs(const CellRun<std::uint32_t>* list) {
-  const __m256 a = _mm256_castsi256_ps(load(list)), b = _mm256_castsi256_ps(load(list + 4));
-  // Of each half of a and b in turns.
-  const __m256i keys = _mm256_castps_si256(_mm256_shuffle_ps(a, b, 0x88)),
-                points = _mm256_castps_si256(_mm256_shuffle_ps(a, b, 0xdd));
-  return {_mm256_permute4x64_epi64(keys, 0xd8), _mm256_permute4x64_epi64(points, 0xd8)};
-}
-
-}  // namespace
 
 GRASPD_AVX2 void write_cells(const CellRun<std::uint32_t>* list, std::size_t begin, std::size_t end,
                              CellOutput out) {

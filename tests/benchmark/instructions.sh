@@ -5,7 +5,9 @@
 # one is more than 5 % above the recorded figure; stages below 1 % of the whole are shown only. Three kinds of work: voxels of
 # 4.5 mm, the same with the paper's own candidates (plain), and a VGA image (a pixel is a point) with the default configuration.
 #   tests/benchmark/instructions.sh [--record] [PROGRAM]
-# --record writes instructions.csv. PROGRAM: build/bin/graspd-bench-counted unless given.
+#   tests/benchmark/instructions.sh --files FILE...
+# --record writes instructions.csv. PROGRAM: build/bin/graspd-bench-counted unless given. --files counts on clouds of your own,
+# PCD or PLY, prints the whole of each and their medians, and compares nothing.
 set -euo pipefail
 export LC_ALL=C
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
@@ -13,10 +15,10 @@ recorded=$here/instructions.csv
 
 fail() { printf 'instructions.sh: %s\n' "$*" >&2; exit 1; }
 
-# Writes a CSV of what callgrind counted to standard output.
+# count PROGRAM FOLDER [FILE]: writes a CSV of what callgrind counted to standard output.
 count() {
   local program=$1 folder=$2
-  valgrind --tool=callgrind --instr-atstart=no --callgrind-out-file="$folder/counts" "$program" \
+  valgrind --tool=callgrind --instr-atstart=no --callgrind-out-file="$folder/counts" "$program" "${@:3}" \
     >"$folder/run" 2>"$folder/valgrind" || { cat "$folder/valgrind" >&2; fail "valgrind failed"; }
   local dumps
   mapfile -t dumps < <(find "$folder" -name 'counts.*' | sort -V)
@@ -63,12 +65,45 @@ compare() {
     END { exit bad }' "$recorded" "$1"
 }
 
+# count_on_files PROGRAM FOLDER FILE...
+count_on_files() {
+  local program=$1 folder=$2 file kind kinds=(voxels plain image)
+  printf '%-40s' 'instructions a point'
+  printf '%10s' "${kinds[@]}"
+  printf '\n'
+  for file in "${@:3}"; do
+    rm -f "$folder"/counts*
+    count "$program" "$folder" "$file" >"$folder/counted.csv"
+    printf '%-40s' "$(basename "$file")"
+    for kind in "${kinds[@]}"; do
+      awk -F, -v whole="$kind/whole" '$1 == whole { printf "%10.1f", $2 }' "$folder/counted.csv" | tee -a "$folder/$kind"
+      printf '\n' >>"$folder/$kind"
+    done
+    printf '\n'
+  done
+  printf '%-40s' median
+  for kind in "${kinds[@]}"; do
+    sort -n "$folder/$kind" | awk '{ v[NR] = $1 } END { printf "%10.1f", (v[int((NR + 1) / 2)] + v[int(NR / 2) + 1]) / 2 }'
+  done
+  printf '\n'
+}
+
 record=no
 if [ "${1:-}" = --record ]; then record=yes; shift; fi
+files=()
+if [ "${1:-}" = --files ]; then
+  [ $# -gt 1 ] || fail "--files: no file is named"
+  files=("${@:2}")
+  set --
+fi
 program=${1:-$here/../../build/bin/graspd-bench-counted}
 [ -x "$program" ] || fail "$program is not there; it is built where valgrind is installed"
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
+if [ ${#files[@]} -gt 0 ]; then
+  count_on_files "$program" "$folder" "${files[@]}"
+  exit 0
+fi
 count "$program" "$folder" >"$folder/counted.csv"
 if [ "$record" = yes ]; then
   cp "$folder/counted.csv" "$recorded"

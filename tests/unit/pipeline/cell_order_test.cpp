@@ -156,5 +156,25 @@ TEST(CellOrder, LargeCloudsAreSortedAsByAStableSort) {
     }
 }
 
+/// A run has so many points at most, and its first point must be one that it has room for.
+TEST(CellOrder, LongRunsAndFarPoints) {
+  constexpr std::size_t kRoom = CellRun<std::uint32_t>::kFirstEnd;
+  for (const std::size_t num : {std::size_t{100000}, kRoom + 100}) {
+    PointCloud cloud;
+    for (RawVector<float>* v : {&cloud.x, &cloud.y, &cloud.z}) v->assign(num, 0.5f);
+    cloud.width = static_cast<int>(num);
+    cloud.height = 1;
+    for (std::size_t i = num / 2; i < num; ++i) cloud.x[i] = i % 3000 == 0 ? 0.5f : -0.5f;
+    const CellOrder order = order_by_cell(cloud, 1);
+    ASSERT_EQ(order.num_cells(), 2u);
+    ASSERT_EQ(order.points.size(), num);
+    for (std::size_t c = 0; c < 2; ++c) {
+      const auto points = order.cell(c);
+      ASSERT_TRUE(std::is_sorted(points.begin(), points.end()));
+      ASSERT_TRUE(std::ranges::all_of(points, [&](std::uint32_t i) { return (cloud.x[i] > 0) == (c == 1); }));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace graspd
