@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <span>
 
+#include "service/pipeline/cell_run.hpp"
+
 namespace graspd {
 
 /// Points in order of a grid's cells. Arrays must be readable for kPointPadding entries beyond the last that
@@ -23,33 +25,6 @@ inline constexpr std::size_t kPointPadding = 8;
 struct PointSpan {
   std::uint32_t begin, end;
 };
-
-/// Points that follow one another and lie in the cell with this key. The first one and how many there are
-/// share one number: what is sorted stays small.
-template <class Key>
-struct CellRun {
-  static constexpr int kSizeBits = 10;
-  static constexpr Key kMostPoints = Key{1} << kSizeBits;
-  /// Of the first points that there is room for.
-  static constexpr std::uint64_t kFirstEnd = std::uint64_t{1} << (8 * sizeof(Key) - kSizeBits);
-
-  Key key, points;
-
-  CellRun() = default;
-  CellRun(Key cell, std::size_t begin, std::size_t end)
-      : key(cell), points(static_cast<Key>(begin << kSizeBits | (end - begin - 1))) {}
-  [[nodiscard]] std::uint32_t first() const { return static_cast<std::uint32_t>(points >> kSizeBits); }
-  [[nodiscard]] std::uint32_t size() const {
-    return static_cast<std::uint32_t>(points & (kMostPoints - 1)) + 1;
-  }
-};
-
-/// Whether a run begins with point i, which is not the first one: where another cell does, and so often that
-/// no run is too long.
-template <class Key>
-[[nodiscard]] inline bool begins_run(const Key* keys, std::size_t i) {
-  return keys[i] != keys[i - 1] || i % CellRun<Key>::kMostPoints == 0;
-}
 
 /// Of sorted runs.
 struct CellCounts {
