@@ -101,11 +101,11 @@ std::vector<Run32> sorted_runs(std::size_t n, std::size_t most_points) {
   std::vector<std::size_t> starts{0};
   for (std::size_t r = 0; r < n; ++r) starts.push_back(starts.back() + 1 + random() % most_points);
   std::vector<Run32> list;
-  std::uint32_t key = 4;
+  std::uint32_t key = 0x7ffffff0;  // further ones are negative to whoever takes them for signed
   for (std::size_t r = 0; r < n; ++r) {
     const std::size_t at = r * 7 % n;  // in no order
     list.emplace_back(key, starts[at], starts[at + 1]);
-    if (random() % 2 != 0) key += r % 50 == 49 ? 0x10000000 : 3;
+    if (random() % 2 != 0) key += r % 50 == 49 ? 0x10000000 : 7;
   }
   return list;
 }
@@ -158,6 +158,30 @@ TEST(OrderKernels, WriteCellsInAPartAndNoMore) {
           EXPECT_EQ(written, expected) << form.name << " " << most_points << " " << size << " " << begin;
         }
       }
+}
+
+TEST(OrderKernels, WriteTheCellsThatBeginInAPart) {
+  // Sorted runs of three cells; a part of them that begins within a cell.
+  const std::vector<Run32> list{{4, 20, 21},          {4, 0, 3},           {4, 21, 30}, {7, 3, 20},
+                                {0xfffffff0, 30, 31}, {0xfffffff0, 31, 40}};
+  constexpr std::size_t kBegin = 1;
+  std::vector<std::uint32_t> expected;
+  for (std::size_t r = kBegin; r < list.size(); ++r)
+    for (std::uint32_t k = 0; k < list[r].size(); ++k) expected.push_back(list[r].first() + k);
+  for (const Form& form : forms()) {
+    std::vector<std::int64_t> keys(3, -1);
+    std::vector<std::uint32_t> starts(3, kUntouched), points(kFirstPoint + expected.size() + 1, kUntouched);
+    form.kernels->write_cells(list.data(), kBegin, list.size(),
+                              {keys.data(), starts.data(), points.data(), 2, kFirstPoint,
+                               kFirstPoint + static_cast<std::uint32_t>(expected.size())});
+    EXPECT_EQ(keys, (std::vector<std::int64_t>{7, 0xfffffff0, -1})) << form.name;
+    EXPECT_EQ(starts, (std::vector<std::uint32_t>{kFirstPoint + 3 + 9, kFirstPoint + 3 + 9 + 17, kUntouched}))
+        << form.name;
+    EXPECT_EQ(points[kFirstPoint - 1], kUntouched);
+    EXPECT_EQ(points.back(), kUntouched) << form.name;
+    for (std::size_t k = 0; k < expected.size(); ++k)
+      EXPECT_EQ(points[kFirstPoint + k], expected[k]) << form.name;
+  }
 }
 
 /// Cells of many sizes, some of whose points come several times.
