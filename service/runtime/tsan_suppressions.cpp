@@ -11,7 +11,7 @@
 // - libOpenNI2, which PCL's readers of files bring along: unlocks mutexes that it has destroyed as it ends.
 // Mailboxes, gates, counts and log stay checked.
 extern "C" const char*
-__tsan_default_suppressions() {  // NOLINT(bugprone-reserved-identifier): the sanitizer's name
+__tsan_default_suppressions() {  // NOLINT(clang-diagnostic-reserved-identifier): the sanitizer's name
   return "race:libtbb.so\n"
          "called_from_lib:libglib-2.0.so\n"
          "called_from_lib:liblcm.so\n"

@@ -14,7 +14,7 @@
 #include "service/transport/bus.hpp"
 #include "service/transport/lcm_url.hpp"
 
-struct _lcm_t;  // NOLINT(bugprone-reserved-identifier): the name that liblcm gives it
+struct _lcm_t;  // NOLINT(clang-diagnostic-reserved-identifier): the name that liblcm gives it
 
 namespace graspd {
 

@@ -20,7 +20,7 @@
 
 // LCM keeps the name of a channel that is not a regular expression. The linker finds the function by this
 // name.
-extern "C" const char* __lsan_default_suppressions();  // NOLINT(bugprone-reserved-identifier)
+extern "C" const char* __lsan_default_suppressions();  // NOLINT(clang-diagnostic-reserved-identifier)
 extern "C" const char* __lsan_default_suppressions() {
   return "leak:lcm_subscribe\n";
 }  // NOLINT
