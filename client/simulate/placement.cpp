@@ -118,7 +118,7 @@ void put(Scene& scene, Ground& ground, ObjectModel model, const Place& place) {
   }
   ground.placed.push_back(std::move(placed));
   Eigen::Isometry3d T_world_model = Eigen::Isometry3d::Identity();
-  T_world_model.translation() << place.position, place.z;
+  T_world_model.translation() = ground.origin + Vector3d(place.position.x(), place.position.y(), place.z);
   T_world_model.rotate(Eigen::AngleAxisd(place.yaw_rad, Vector3d::UnitZ()));
   model.solid.T_world_solid = T_world_model * model.solid.T_world_solid;
   model.solid.label = object_label(kFirstObject + static_cast<std::uint32_t>(num_objects(scene)));

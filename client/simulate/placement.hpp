@@ -22,10 +22,11 @@ struct Placed {
 
 /// Where objects may be, and what is there already.
 struct Ground {
-  Eigen::Vector2d half;    ///< of the area that objects must stay in
+  Eigen::Vector2d half;    ///< of the area that objects must stay in, around the origin
   Eigen::Vector2d spread;  ///< deviation of their places from the middle; 0: all over the area
   std::vector<Footprint> obstacles;
   std::vector<Placed> placed;
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of these and of places, in the world
   bool walled = false;  ///< the obstacles alone hold things in: they may be pushed against the walls
 };
 

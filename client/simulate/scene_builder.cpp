@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "client/simulate/clutter.hpp"
+#include "client/simulate/furniture.hpp"
 #include "client/simulate/household_models.hpp"
 #include "client/simulate/placement.hpp"
 
@@ -25,33 +26,29 @@ struct KindOfScene {
   std::string_view name;
   SceneKind kind;
   bool in_bin;
-  int num_objects;  // where the configuration does not say
+  int num_objects;                 // where the configuration does not say
+  double elevation_deg, target_m;  // of the usual view
 };
-constexpr std::array<KindOfScene, 8> kKinds{{{"table", SceneKind::kTable, false, 8},
-                                             {"bin", SceneKind::kBin, true, 8},
-                                             {"empty", SceneKind::kEmpty, false, 0},
-                                             {"easy", SceneKind::kEasy, false, 4},
-                                             {"medium", SceneKind::kMedium, false, 8},
-                                             {"hard", SceneKind::kHard, false, 14},
-                                             {"extreme", SceneKind::kExtreme, true, 24},
-                                             {"household", SceneKind::kHousehold, false, 6}}};
+constexpr std::array<KindOfScene, 10> kKinds{{{"table", SceneKind::kTable, false, 8, 43, 0.03},
+                                              {"bin", SceneKind::kBin, true, 8, 63, 0.03},
+                                              {"empty", SceneKind::kEmpty, false, 0, 43, 0.03},
+                                              {"easy", SceneKind::kEasy, false, 4, 43, 0.03},
+                                              {"medium", SceneKind::kMedium, false, 8, 43, 0.03},
+                                              {"hard", SceneKind::kHard, false, 14, 43, 0.03},
+                                              {"extreme", SceneKind::kExtreme, true, 24, 63, 0.03},
+                                              {"household", SceneKind::kHousehold, false, 6, 43, 0.03},
+                                              {"levels", SceneKind::kLevels, false, 8, 43, 0.03},
+                                              {"shelf", SceneKind::kShelf, false, 8, 30, 0.17}}};
 
 const KindOfScene& properties(SceneKind kind) {
   return kKinds[static_cast<std::size_t>(kind)];
 }
 
-Solid slab(const char* kind, std::uint32_t label, std::uint32_t rgb, const Vector3d& center,
-           const Vector3d& half) {
-  Solid solid;
-  solid.kind = kind;
-  solid.label = label;
-  solid.rgb = rgb;
-  solid.parts.emplace_back(Box{center, half});
-  return solid;
+void add_floor(Scene& scene) {
+  scene.solids.push_back(slab("floor", kLabelSupport, 0x9c8f7f, {0, 0, kFloorZ - 0.05}, {4, 4, 0.05}));
 }
 
-void add_room(Scene& scene) {
-  scene.solids.push_back(slab("floor", kLabelSupport, 0x9c8f7f, {0, 0, kFloorZ - 0.05}, {4, 4, 0.05}));
+void add_table(Scene& scene) {
   scene.solids.push_back(
       slab("table", kLabelSupport, 0xc8a97e, {0, 0, -0.015}, {kTableHalf.x(), kTableHalf.y(), 0.015}));
 }
@@ -67,14 +64,6 @@ void add_bin(Scene& scene, Ground& ground) {
       scene.solids.push_back(slab("bin_wall", kLabelBinWall, 0x3b6ea5, center, half));
       ground.obstacles.push_back({center.head<2>(), half.head<2>(), 0, 0, 0, kBinHeight});
     }
-  }
-}
-
-/// Nothing leans, and nothing lies on something else.
-void add_loose_objects(ObjectMaker make, int num_objects, Scene& scene, Ground& ground, Rng& rng) {
-  for (int i = 0; i < num_objects; ++i) {
-    ObjectModel model = make(rng);
-    if (const auto place = find_place({}, ground, model, rng)) put(scene, ground, std::move(model), *place);
   }
 }
 
@@ -96,10 +85,24 @@ bool in_bin(SceneKind kind) {
   return properties(kind).in_bin;
 }
 
+double usual_elevation_deg(SceneKind kind) {
+  return properties(kind).elevation_deg;
+}
+
+double usual_target_m(SceneKind kind) {
+  return properties(kind).target_m;
+}
+
 Scene build_scene(const SceneConfig& config, std::uint64_t seed) {
   Rng rng(seed);
   Scene scene;
-  add_room(scene);
+  add_floor(scene);
+  const int num = config.num_objects.value_or(properties(config.kind).num_objects);
+  if (config.kind == SceneKind::kShelf) {
+    add_shelf(num, scene, rng);
+    return scene;
+  }
+  add_table(scene);
   if (config.kind == SceneKind::kEmpty) return scene;
   Ground ground{kTableHalf, {0.16, 0.12}, {}, {}};
   if (in_bin(config.kind)) {
@@ -107,7 +110,6 @@ Scene build_scene(const SceneConfig& config, std::uint64_t seed) {
     ground.spread.setZero();
     add_bin(scene, ground);
   }
-  const int num = config.num_objects.value_or(properties(config.kind).num_objects);
   switch (config.kind) {
     case SceneKind::kEasy:
       add_clutter(easy_clutter(), num, scene, ground, rng);
@@ -124,6 +126,9 @@ Scene build_scene(const SceneConfig& config, std::uint64_t seed) {
       break;
     case SceneKind::kHousehold:
       add_loose_objects(make_household_object, num, scene, ground, rng);
+      break;
+    case SceneKind::kLevels:
+      add_levels(num, scene, ground, rng);
       break;
     default:
       add_loose_objects(make_random_object, num, scene, ground, rng);

@@ -19,10 +19,6 @@ std::uint64_t seed_of(std::uint64_t seed, Purpose purpose, std::int64_t number) 
 
 }  // namespace
 
-double usual_elevation_deg(SceneKind kind) {
-  return in_bin(kind) ? 63 : 43;
-}
-
 Pinhole scaled(const Pinhole& camera, int width) {
   const double scale = static_cast<double>(width) / camera.width;
   return {width,
@@ -34,7 +30,7 @@ Pinhole scaled(const Pinhole& camera, int width) {
 }
 
 Eigen::Isometry3d Simulation::T_world_camera(std::int64_t k) const {
-  const Eigen::Vector3d middle(0, 0, 0.03);
+  const Eigen::Vector3d middle(0, 0, usual_target_m(config_.scene.kind));
   // Azimuth 0 stands at the long side of the table, where a robot would.
   const double azimuth =
       config_.azimuth_rad + config_.orbit_rad_per_frame * static_cast<double>(k) - std::numbers::pi / 2;

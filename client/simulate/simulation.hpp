@@ -23,9 +23,6 @@ struct SimulationConfig {
   double orbit_rad_per_frame = 0;  ///< the camera's own motion
 };
 
-/// Where a camera usually looks from at such a scene, above the horizon [degrees]: into a bin more steeply.
-[[nodiscard]] double usual_elevation_deg(SceneKind kind);
-
 /// The same view in another resolution; the height is 3/4 of the width.
 [[nodiscard]] Pinhole scaled(const Pinhole& camera, int width);
 

@@ -20,7 +20,7 @@ OPTIONS = f'''<compiler angle="radian" autolimits="true"/><size memory="64M"/>
 <default><geom friction="0.5 0.003 0.0004" condim="4" solref="0.008 1" solimp="0.9 0.95 0.001"
  mass="0.001"/></default>'''
 TABLE = '<geom name="table" type="plane" size="0 0 1"/>'
-SUPPORT_LABEL = 1
+UNDER_THE_TABLE = {"table", "floor"}  # kinds that the plane stands for
 
 
 @dataclass(frozen=True)
@@ -62,7 +62,7 @@ class SceneModel:
         """free: objects that can move; hand: its pose in the world and how far each jaw is off its
         middle."""
         writer = GeomWriter()
-        solids = [i for i, solid in enumerate(self.solids) if solid.label != SUPPORT_LABEL]
+        solids = [i for i, solid in enumerate(self.solids) if solid.kind not in UNDER_THE_TABLE]
         bodies = "".join(self._body(i, i in free, writer) for i in solids)
         gripper, drives = "", ""
         if hand is not None:

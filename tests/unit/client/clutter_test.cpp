@@ -16,8 +16,8 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr std::array kLevels{SceneKind::kEasy, SceneKind::kMedium, SceneKind::kHard, SceneKind::kExtreme};
-constexpr std::array kScenes{SceneKind::kEasy, SceneKind::kMedium, SceneKind::kHard, SceneKind::kExtreme,
-                             SceneKind::kHousehold};
+constexpr std::array kScenes{SceneKind::kEasy,      SceneKind::kMedium, SceneKind::kHard, SceneKind::kExtreme,
+                             SceneKind::kHousehold, SceneKind::kLevels, SceneKind::kShelf};
 
 bool touches(const Scene& scene, std::size_t object, const Vector3d& move) {
   Solid moved = scene.solids[object];
