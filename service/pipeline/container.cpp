@@ -20,7 +20,7 @@ constexpr float kTrimmed = 0.02f;      // share of the points at either end that
 
 struct Wall {
   Plane face;   // its normal horizontal
-  float top_m;  // height above the support
+  float top_m;  // height above what the things in the container stand on
 };
 
 /// The value that so many others come before; reorders them.
@@ -59,20 +59,20 @@ bool stands_among(const PointRange& points, const Plane& face, std::size_t most)
 
 /// Whether what has the face reaches back from it at the face's own height along most of its length, as books
 /// that stand in a row do: walls of bins are thin.
-bool is_thick(const PointRange& standing, const Support& support, const Wall& wall, float thickness_m) {
+bool is_thick(const PointRange& standing, const Plane& bottom, const Wall& wall, float thickness_m) {
   constexpr float kBin = 0.01f, kDepth = 0.05f, kBelowTop = 0.012f, kMostThick = 0.25f;
   constexpr int kBins = 1024;
-  const Eigen::Vector3f along = support.plane.normal.cross(wall.face.normal);
+  const Eigen::Vector3f along = bottom.normal.cross(wall.face.normal);
   const auto bin = [&](const Eigen::Vector3f& p) {
     return std::clamp(static_cast<int>(along.dot(p) / kBin) + kBins / 2, 0, kBins - 1);
   };
-  std::array<float, kBins> face{}, behind{};  // highest of each, above the support
+  std::array<float, kBins> face{}, behind{};  // highest of each, above the bottom
   for (std::size_t k = 0; k < standing.size; ++k) {
     const Eigen::Vector3f p(standing.x[k], standing.y[k], standing.z[k]);
     const float d = wall.face.height(p);
     if (d > thickness_m || d < -kDepth || (d < -thickness_m && d > -2 * thickness_m)) continue;
     float& top = (d < -thickness_m ? behind : face)[static_cast<std::size_t>(bin(p))];
-    top = std::max(top, support.plane.height(p));
+    top = std::max(top, bottom.height(p));
   }
   int num_bins = 0, thick = 0;
   for (std::size_t k = 0; k < kBins; ++k) {
@@ -82,15 +82,14 @@ bool is_thick(const PointRange& standing, const Support& support, const Wall& wa
   return static_cast<float>(thick) > kMostThick * static_cast<float>(num_bins);
 }
 
-/// The points near a face: how far along it they lie, and how high above the support.
+/// The points near a face: how far along it they lie, and how high above the bottom.
 struct SlabPoints {
   std::pmr::vector<float> lengths, heights;
 };
 
-SlabPoints points_near(const PointRange& points, const Plane& face, const Support& support,
-                       float thickness_m) {
+SlabPoints points_near(const PointRange& points, const Plane& face, const Plane& bottom, float thickness_m) {
   constexpr std::size_t kBlock = 8;  // most blocks have no such point, which vectors tell at once
-  const Eigen::Vector3f along = support.plane.normal.cross(face.normal);
+  const Eigen::Vector3f along = bottom.normal.cross(face.normal);
   const float nx = face.normal.x(), ny = face.normal.y(), nz = face.normal.z(), offset = face.offset_m;
   SlabPoints found;
   for (std::size_t from = 0; from < points.size; from += kBlock) {
@@ -106,32 +105,32 @@ SlabPoints points_near(const PointRange& points, const Plane& face, const Suppor
       if (d[k] > thickness_m) continue;
       const Eigen::Vector3f p(x[k], y[k], z[k]);
       found.lengths.push_back(along.dot(p));
-      found.heights.push_back(support.plane.height(p));
+      found.heights.push_back(bottom.height(p));
     }
   }
   return found;
 }
 
 /// Whether the face is long and high enough, and has nearly all points on one side.
-bool is_wall(const PointRange& standing, const Support& support, const ContainerConfig& config, Wall& wall) {
+bool is_wall(const PointRange& standing, const Plane& bottom, const ContainerConfig& config, Wall& wall) {
   const auto most = static_cast<std::size_t>(config.max_outside_share * static_cast<float>(standing.size));
   if (stands_among(standing, wall.face, most)) return false;
-  SlabPoints near = points_near(standing, wall.face, support, config.thickness_m);
+  SlabPoints near = points_near(standing, wall.face, bottom, config.thickness_m);
   if (trimmed_length(near.lengths) < config.min_length_m) return false;
   if (trimmed_length(near.heights) < 0.7f * config.min_height_m) return false;
   wall.top_m = nth(near.heights, near.heights.size() - 1 - near.heights.size() / 50);
-  return wall.top_m >= config.min_height_m && !is_thick(standing, support, wall, config.thickness_m);
+  return wall.top_m >= config.min_height_m && !is_thick(standing, bottom, wall, config.thickness_m);
 }
 
-std::pmr::vector<Wall> find_walls(const Segments& segments, const PointRange& standing,
-                                  const Support& support, const ContainerConfig& config) {
+std::pmr::vector<Wall> find_walls(const Segments& segments, const PointRange& standing, const Plane& bottom,
+                                  const ContainerConfig& config) {
   std::pmr::vector<Wall> walls;
   for (const Segment& segment : segments.list) {
-    const float lean = segment.normal.dot(support.plane.normal);
+    const float lean = segment.normal.dot(bottom.normal);
     if (std::abs(lean) > kMaxLean || segment.scatter_m > kMaxScatter) continue;
-    const Eigen::Vector3f normal = (segment.normal - lean * support.plane.normal).normalized();
+    const Eigen::Vector3f normal = (segment.normal - lean * bottom.normal).normalized();
     Wall wall{{normal, -normal.dot(segment.centroid)}, 0};
-    if (is_wall(standing, support, config, wall)) walls.push_back(wall);
+    if (is_wall(standing, bottom, config, wall)) walls.push_back(wall);
   }
   return walls;
 }
@@ -149,9 +148,10 @@ bool make_container(const Wall& a, const Wall& b, float min_apart_m) {
 std::pmr::vector<std::uint8_t> find_container(const PointCloud& cloud, const Segments& segments,
                                               const Support& support, const ContainerConfig& config) {
   if (!config.enabled) return {};
+  const Plane& bottom = support.lowest_plane();
   const RawVector<std::uint32_t> standing = unmarked(support.is_support, cloud.size());
   const PaddedPoints points(cloud, standing);
-  std::pmr::vector<Wall> walls = find_walls(segments, points.all(), support, config);
+  std::pmr::vector<Wall> walls = find_walls(segments, points.all(), bottom, config);
   const std::pmr::vector<Wall> all = walls;
   std::erase_if(walls, [&](const Wall& wall) {
     return std::none_of(all.begin(), all.end(), [&](const Wall& other) {
@@ -162,7 +162,7 @@ std::pmr::vector<std::uint8_t> find_container(const PointCloud& cloud, const Seg
   std::pmr::vector<std::uint8_t> belongs(cloud.size());
   for (const std::uint32_t i : standing) {
     const Eigen::Vector3f p = cloud.point(i);
-    const float height = support.plane.height(p);
+    const float height = bottom.height(p);
     belongs[i] = std::any_of(walls.begin(), walls.end(), [&](const Wall& wall) {
       return std::abs(wall.face.height(p)) <= config.thickness_m && height <= wall.top_m + config.thickness_m;
     });

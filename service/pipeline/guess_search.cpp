@@ -170,6 +170,23 @@ HandleCheckConfig coarse_limits(HandleCheckConfig limits) {
   return limits;
 }
 
+/// Nothing where there is one level only.
+std::pmr::vector<std::uint32_t> levels_of_objects(const PointCloud& cloud,
+                                                  const std::optional<Support>& support, const Guess& guess) {
+  std::pmr::vector<std::uint32_t> levels;
+  if (!support || support->levels.empty()) return levels;
+  const auto is_lower = [&](std::uint32_t a, std::uint32_t b) {
+    return support->plane.height(cloud.point(a)) < support->plane.height(cloud.point(b));
+  };
+  for (std::size_t k = 0; k < guess.objects.center.size(); ++k) {
+    const std::span<const std::uint32_t> points = guess.points.of(k);
+    levels.push_back(points.empty() ? 0
+                                    : level_under(support->levels, guess.objects.center[k],
+                                                  cloud.point(*std::ranges::min_element(points, is_lower))));
+  }
+  return levels;
+}
+
 }  // namespace
 
 float centrality(const Handle& handle, const Eigen::Vector3f& object_center,
@@ -204,6 +221,7 @@ void SearchResult::count(std::int32_t segment, Failure failure) {
 GuessSearch::GuessSearch(const CheckedScene& scene, const Objects& objects, const Gripper& gripper,
                          const DetectConfig& config)
     : guess_{objects, points_by_object(objects)},
+      level_of_object_(levels_of_objects(scene.surfaces.cloud, scene.surfaces.support, guess_)),
       gripper_(gripper),
       config_(config),
       outlines_(scene.surfaces.cloud, guess_.points),
@@ -222,7 +240,8 @@ GuessSearch::GuessSearch(const CheckedScene& scene, const Objects& objects, cons
               kMinSparse,
               scene.surfaces.sparse.spacing_m,
               &scene.far_sides,
-              &scene.surfaces.segments},
+              &scene.surfaces.segments,
+              level_of_object_},
       points_{scene.cloud,
               scene.surfaces.points,
               objects.of_point,
@@ -235,7 +254,8 @@ GuessSearch::GuessSearch(const CheckedScene& scene, const Objects& objects, cons
               kMinPoints,
               0,
               &scene.far_sides,
-              &scene.surfaces.segments} {}
+              &scene.surfaces.segments,
+              level_of_object_} {}
 
 void GuessSearch::run(const std::pmr::vector<std::uint8_t>& wanted, CheckBuffersOfThreads& buffers,
                       SearchResult& out) const {

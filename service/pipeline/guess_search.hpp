@@ -81,6 +81,7 @@ class GuessSearch {
 
  private:
   Guess guess_;
+  std::pmr::vector<std::uint32_t> level_of_object_;
   const Gripper& gripper_;
   const DetectConfig& config_;
   ObjectOutlines outlines_;

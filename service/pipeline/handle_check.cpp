@@ -13,6 +13,7 @@
 #include "service/pipeline/nth_value.hpp"
 #include "service/pipeline/one_face.hpp"
 #include "service/pipeline/patch_fit.hpp"
+#include "service/pipeline/support_check.hpp"
 #include "service/pipeline/thin_wall.hpp"
 #include "service/pipeline/unseen_share.hpp"
 
@@ -126,23 +127,9 @@ Failure Check::check_volumes() {
 }
 
 Failure Check::check_support() const {
-  if (!scene_.support) return Failure::kNone;
-  const float half = half_opening(), hand = 0.5f * gripper_.aperture_m + gripper_.finger_width_m;
-  const float palm_top = gripper_.grasp_depth_m - gripper_.finger_length_m;
-  for (const float a : {-0.5f * gripper_.finger_thickness_m, 0.5f * gripper_.finger_thickness_m})
-    for (const float side : {-1.0f, 1.0f}) {
-      const auto height = [&](float f, float z) {
-        return scene_.support->plane.height(handle_.position +
-                                            handle_.rotation * Eigen::Vector3f(a, side * f, z));
-      };
-      if (std::min(height(half, gripper_.grasp_depth_m),
-                   height(half + gripper_.finger_width_m, gripper_.grasp_depth_m)) <
-          config_.support_clearance_m)
-        return Failure::kSupport;
-      if (std::min(height(hand, palm_top), height(hand, palm_top - config_.palm_depth_m - config_.way_m)) < 0)
-        return Failure::kSupport;
-    }
-  return Failure::kNone;
+  const bool is_clear =
+      is_clear_of_support(scene_, gripper_, config_, handle_, half_opening(), candidate_.object);
+  return is_clear ? Failure::kNone : Failure::kSupport;
 }
 
 void Check::find_ends() {
@@ -292,8 +279,9 @@ float grip_margin(float lean_rad) {
 
 Failure Check::check_contacts() {
   const Eigen::Vector3f approach = handle_.rotation.col(2);
+  const Plane* const support = scene_.plane_under(candidate_.object);
   if (seen_area() < config_.min_contact_area_m2 ||
-      grip_depth() < least_grip_depth(scene_, config_, handle_.position + top_ * approach, approach))
+      grip_depth() < least_grip_depth(support, config_, handle_.position + top_ * approach, approach))
     return Failure::kContact;
   buffers_.profile.clear();
   // Where the far side is known, nothing needs to be guessed from the profile.

@@ -66,14 +66,13 @@ float raise_for_obstacles(const SceneView& scene, const Gripper& g, const Handle
                           const Candidate& candidate, CheckBuffers& buffers, const PatchFit& fit) {
   const float half = 0.5f * std::min(g.aperture_m, fit.width_m + 2 * config.clearance_m);
   float raise = 0;
-  if (scene.support) {
-    const Plane& plane = scene.support->plane;
-    const float steepness = -candidate.rotation.col(2).dot(plane.normal);
+  if (const Plane* const plane = scene.plane_under(candidate.object); plane != nullptr) {
+    const float steepness = -candidate.rotation.col(2).dot(plane->normal);
     if (steepness > 0.1f)
       for (const float a : {-0.5f, 0.5f})
         for (const float f : {-half - g.finger_width_m, half + g.finger_width_m}) {
           const Eigen::Vector3f tip(a * g.finger_thickness_m, fit.center_m + f, fit.top_m + g.grasp_depth_m);
-          const float height = plane.height(candidate.position + candidate.rotation * tip);
+          const float height = plane->height(candidate.position + candidate.rotation * tip);
           raise = std::max(raise, (config.support_clearance_m + 0.002f - height) / steepness);
         }
   }
@@ -209,14 +208,14 @@ void describe_points(const BandTags& tags, CheckBuffers& buffers) {
 
 }  // namespace
 
-float least_grip_depth(const SceneView& scene, const HandleCheckConfig& config, const Eigen::Vector3f& top,
+float least_grip_depth(const Plane* support, const HandleCheckConfig& config, const Eigen::Vector3f& top,
                        const Eigen::Vector3f& approach) {
   constexpr float kSteep = 0.5f;     // cosine between approach and support's normal
   constexpr float kLowest = 0.010f;  // of what counts as a thing on the support [m]
-  if (!scene.support) return config.min_grip_depth_m;
-  const float steepness = -approach.dot(scene.support->plane.normal);
+  if (support == nullptr) return config.min_grip_depth_m;
+  const float steepness = -approach.dot(support->normal);
   if (steepness < kSteep) return config.min_grip_depth_m;
-  const float height = std::max(kLowest, scene.support->plane.height(top));
+  const float height = std::max(kLowest, support->height(top));
   return std::min(config.min_grip_depth_m, config.min_grip_share * height / steepness);
 }
 
@@ -225,10 +224,11 @@ Failure fit_patch(const SceneView& scene, const Gripper& gripper, const HandleCh
   const Gripper& g = gripper;
   const float reach = profile_reach(scene, g);
   const BandTags tags = band_tags(scene, candidate, reach);
+  const Plane* const support = scene.plane_under(candidate.object);
   // As far up as the fingers reach when they go in the least deep; and further, as most tops are there.
   const auto least_depth = [&](float top_m) {
     const Eigen::Vector3f approach = candidate.rotation.col(2);
-    return least_grip_depth(scene, config, candidate.position + top_m * approach, approach);
+    return least_grip_depth(support, config, candidate.position + top_m * approach, approach);
   };
   const float above = g.finger_length_m - least_depth(0) + kTopWindow, further = g.finger_length_m;
   const float below = g.grasp_depth_m + kBelowTips + kLower;

@@ -19,7 +19,7 @@ struct PatchFit {
 /// How deep the object must reach between the jaws [m]: what lies on the support may be lower than
 /// min_grip_depth_m; then it is held by most of its height. top: the object's, in the cloud's frame;
 /// approach: unit.
-[[nodiscard]] float least_grip_depth(const SceneView& scene, const HandleCheckConfig& config,
+[[nodiscard]] float least_grip_depth(const Plane* support, const HandleCheckConfig& config,
                                      const Eigen::Vector3f& top, const Eigen::Vector3f& approach);
 
 /// Gathers the points around the candidate into buffers (relative to the fitted position) and fits. The

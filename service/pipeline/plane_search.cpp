@@ -161,44 +161,80 @@ int count_on(const Sample& sample, const Plane& plane, const PlaneLimits& limits
       {points.x.data(), points.y.data(), points.z.data(), sample.normals.arrays(), points.size()});
 }
 
+/// Hypotheses, and how many points of the sample are on each.
+struct Hypotheses {
+  std::pmr::vector<Plane> planes;
+  std::pmr::vector<int> num_on;
+  std::pmr::vector<std::size_t> order;  // the most points first
+};
+
+Hypotheses make_hypotheses(const Sample& sample, int num, const PlaneLimits& limits,
+                           const Eigen::Vector3f& viewpoint) {
+  std::minstd_rand random(1);
+  Hypotheses all;
+  for (int trial = 0; trial < 20 * num && static_cast<int>(all.planes.size()) < num; ++trial) {
+    std::array<std::size_t, 3> at{};
+    for (std::size_t& i : at) i = random() % sample.points.size();
+    if (const auto plane = plane_through(sample, at, limits.min_cosine, viewpoint))
+      all.planes.push_back(*plane);
+  }
+  all.num_on.resize(all.planes.size());
+  tbb::parallel_for(std::size_t{0}, all.planes.size(),
+                    [&](std::size_t i) { all.num_on[i] = count_on(sample, all.planes[i], limits); });
+  all.order.resize(all.planes.size());
+  std::iota(all.order.begin(), all.order.end(), std::size_t{0});
+  std::sort(all.order.begin(), all.order.end(), [&](std::size_t a, std::size_t b) {
+    return all.num_on[a] != all.num_on[b] ? all.num_on[a] > all.num_on[b] : a < b;
+  });
+  return all;
+}
+
+struct Scored {
+  Plane plane;
+  int score;
+};
+
+/// The best one of those that may be, where its score is more than the least.
+template <class MayBe>
+std::optional<Scored> best_of(const Hypotheses& all, const Sample& sample, const PlaneLimits& limits,
+                              const Eigen::Vector3f& viewpoint, int least_score, const MayBe& may_be) {
+  std::optional<Scored> best;
+  int best_score = least_score;
+  std::pmr::vector<Plane> tried;
+  const Eigen::Vector3f middle = middle_of(sample.points);
+  for (const std::size_t i : all.order) {
+    const Plane& plane = all.planes[i];
+    if (all.num_on[i] <= best_score) break;
+    if (!may_be(plane) || std::any_of(tried.begin(), tried.end(), [&](const Plane& other) {
+          return are_alike(other, plane, limits, middle);
+        }))
+      continue;
+    tried.push_back(plane);
+    const int score =
+        all.num_on[i] - seen_through(sample, plane, limits, viewpoint, all.num_on[i] - best_score);
+    if (score <= best_score) continue;
+    best_score = score;
+    best = {plane, score};
+  }
+  return best;
+}
+
 }  // namespace
 
 std::optional<Plane> find_plane(CoarseSurface& coarse, int num_hypotheses, const PlaneLimits& limits,
                                 const Eigen::Vector3f& viewpoint) {
+  constexpr float kFacesDown = 0.15f, kEnough = 0.4f;
   if (coarse.size() < 3) return std::nullopt;
   const Sample sample = take_sample(coarse, viewpoint);
-  std::minstd_rand random(1);
-  std::pmr::vector<Plane> planes;
-  for (int trial = 0; trial < 20 * num_hypotheses && static_cast<int>(planes.size()) < num_hypotheses;
-       ++trial) {
-    std::array<std::size_t, 3> at{};
-    for (std::size_t& i : at) i = random() % sample.points.size();
-    if (const auto plane = plane_through(sample, at, limits.min_cosine, viewpoint)) planes.push_back(*plane);
-  }
-  std::pmr::vector<int> num_on(planes.size());
-  tbb::parallel_for(std::size_t{0}, planes.size(),
-                    [&](std::size_t i) { num_on[i] = count_on(sample, planes[i], limits); });
-  std::pmr::vector<std::size_t> order(planes.size());  // the most points first
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return num_on[a] != num_on[b] ? num_on[a] > num_on[b] : a < b;
-  });
-  std::optional<Plane> best;
-  int best_score = 0;
-  std::pmr::vector<Plane> tried;
-  const Eigen::Vector3f middle = middle_of(sample.points);
-  for (const std::size_t i : order) {
-    if (num_on[i] <= best_score) break;
-    if (std::any_of(tried.begin(), tried.end(),
-                    [&](const Plane& plane) { return are_alike(plane, planes[i], limits, middle); }))
-      continue;
-    tried.push_back(planes[i]);
-    const int score = num_on[i] - seen_through(sample, planes[i], limits, viewpoint, num_on[i] - best_score);
-    if (score <= best_score) continue;
-    best_score = score;
-    best = planes[i];
-  }
-  return best;
+  const Hypotheses all = make_hypotheses(sample, num_hypotheses, limits, viewpoint);
+  const auto best = best_of(all, sample, limits, viewpoint, 0, [](const Plane&) { return true; });
+  if (!best) return std::nullopt;
+  const auto faces_down = [](const Plane& plane) { return plane.normal.y() > kFacesDown; };
+  if (!viewpoint.isZero() || !faces_down(best->plane)) return best->plane;
+  const auto enough = static_cast<int>(kEnough * static_cast<float>(best->score));
+  const auto upright =
+      best_of(all, sample, limits, viewpoint, enough, [&](const Plane& plane) { return !faces_down(plane); });
+  return upright ? upright->plane : best->plane;
 }
 
 }  // namespace graspd

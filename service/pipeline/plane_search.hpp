@@ -29,6 +29,9 @@ struct PlaneLimits {
 /// of sight that pass it where its own points are. A support hides what is behind it; beyond its border the
 /// floor may be seen, however much of it. Its normal is on the side of the viewpoint. Nothing where every
 /// plane is seen through as often as it has points.
+/// Where the cloud is in the optical frame (x right, y down, z ahead) and the best plane faces down in the
+/// image, as the back of a shelf does for a camera that stands upright, one that does not is enough with 0.4
+/// of its score.
 [[nodiscard]] std::optional<Plane> find_plane(CoarseSurface& coarse, int num_hypotheses,
                                               const PlaneLimits& limits, const Eigen::Vector3f& viewpoint);
 

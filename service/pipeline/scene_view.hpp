@@ -33,6 +33,8 @@ struct SceneView {
   float spacing_m = 0;  ///< of a sparse copy, which is even; 0 for the points as they were measured
   const FarSides* far_sides = nullptr;  ///< null: none are known
   const Segments* segments = nullptr;   ///< of the voxels; null: none are known
+  /// Index into the support's levels for each object; empty where it has none.
+  std::span<const std::uint32_t> level_of_object = {};
 
   [[nodiscard]] bool is_sparse() const { return spacing_m > 0; }
   /// Whether a point was measured: else it is of a far side.
@@ -42,6 +44,13 @@ struct SceneView {
   }
   [[nodiscard]] std::int32_t object_at(std::int32_t depth_map_point) const {
     return object_of_voxel[depth_map_voxel[static_cast<std::size_t>(depth_map_point)]];
+  }
+  /// The plane that an object stands on; null where there is no support.
+  [[nodiscard]] const Plane* plane_under(std::int32_t object) const {
+    if (!support) return nullptr;
+    return level_of_object.empty()
+               ? &support->plane
+               : &support->levels[level_of_object[static_cast<std::size_t>(object)]].plane;
   }
   /// The points of the cloud and of far sides in a box, as BoxQuery finds them.
   void find(const Eigen::Vector3f& origin, const Eigen::Matrix3f& rotation, const Eigen::Vector3f& min,

@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "service/pipeline/coarse_surface.hpp"
+#include "service/pipeline/level_search.hpp"
 #include "service/pipeline/plane_search.hpp"
 #include "service/pipeline/union_find.hpp"
 
@@ -221,6 +222,37 @@ std::pmr::vector<std::uint8_t> points_of(const Support& support, const PointClou
   return is_support;
 }
 
+/// Least squares for those besides the support.
+void settle_levels(const CoarseSurface& coarse, const PlaneLimits& limits, Support& support) {
+  const std::pmr::vector<Witness> asked =
+      support.levels.empty() ? std::pmr::vector<Witness>{} : witnesses(coarse);
+  for (Level& level : support.levels) {
+    if (level.plane.offset_m == support.plane.offset_m) continue;
+    for (int round = 0; round < 2; ++round) refine(coarse, asked, limits, level.plane);
+  }
+}
+
+/// The same where there are several levels. Of what is below an upper one only its front belongs to it.
+std::pmr::vector<std::uint8_t> points_of_levels(const Support& support, const PointCloud& cloud,
+                                                const SupportConfig& config) {
+  constexpr float kMostFront = 0.04f;  // height of a board's front [m]
+  std::pmr::vector<std::uint8_t> is_support(cloud.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cloud.size(), 8192), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i != range.end(); ++i) {
+      const Eigen::Vector3f p = cloud.point(i);
+      const float thickness = support_thickness(p, cloud.viewpoint, support.sigma_m, config);
+      bool is_lowest = true;
+      for (const Level& level : support.levels) {
+        const float height = level.plane.height(p);
+        if (height < thickness && (is_lowest || (height > -kMostFront && level.extent.covers(p, 1))))
+          is_support[i] = 1;
+        is_lowest = false;
+      }
+    }
+  });
+  return is_support;
+}
+
 }  // namespace
 
 std::optional<Support> find_support(const PointCloud& cloud, const SupportConfig& config) {
@@ -239,7 +271,10 @@ std::optional<Support> find_support(const PointCloud& cloud, const SupportConfig
   for (int round = 0; round < 3; ++round) inliers = refine(coarse, asked, limits, support.plane);
   if (inliers * config.leaf_size_m * config.leaf_size_m < config.min_area_m2) return std::nullopt;
   support.sigma_m = scatter(cloud, support.plane, config.thickness_m);
-  support.is_support = points_of(support, cloud, config);
+  support.levels = find_levels(coarse, support.plane, limits, config);
+  settle_levels(coarse, limits, support);
+  support.is_support =
+      support.levels.empty() ? points_of(support, cloud, config) : points_of_levels(support, cloud, config);
   return support;
 }
 

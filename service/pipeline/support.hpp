@@ -8,22 +8,18 @@
 #include <vector>
 
 #include "service/pipeline/config_fields.hpp"
+#include "service/pipeline/level.hpp"
+#include "service/pipeline/plane.hpp"
 #include "service/pipeline/point_cloud.hpp"
 
 namespace graspd {
-
-struct Plane {
-  Eigen::Vector3f normal = Eigen::Vector3f::UnitZ();  ///< unit length, towards the sensor
-  float offset_m = 0;                                 ///< normal . p + offset_m = 0 for points of the plane
-
-  /// Signed distance, positive on the sensor's side [m].
-  [[nodiscard]] float height(const Eigen::Vector3f& p) const { return normal.dot(p) + offset_m; }
-};
 
 struct SupportConfig {
   bool enabled = true;
   float min_area_m2 = 0.03f;
   float min_upper_area_m2 = 0.12f;
+  float min_level_area_m2 = 0.05f;
+  float min_level_width_m = 0.2f;
   float thickness_m = 0.008f;
   float min_thickness_m = 0.005f;
   float thickness_per_m = 0.006f;
@@ -38,6 +34,10 @@ struct SupportConfig {
     v("min_upper_area_m2", self.min_upper_area_m2, Range{0.001, 100},
       "a parallel plane above the largest one with this connected area is the support: a table over the "
       "floor [m2]");
+    v("min_level_area_m2", self.min_level_area_m2, Range{0.001, 100},
+      "parallel planes above and below it with this connected area and things on them are supports, too "
+      "[m2]");
+    v("min_level_width_m", self.min_level_width_m, Range{0.01, 10}, "and as wide as this [m]");
     v("thickness_m", self.thickness_m, Range{0.001, 0.1},
       "points this close to a plane are its own while the support is looked for [m]");
     v("min_thickness_m", self.min_thickness_m, Range{0.001, 0.1},
@@ -54,8 +54,13 @@ struct SupportConfig {
 
 struct Support {
   Plane plane;
-  float sigma_m = 0;                          ///< scatter of its points about the plane
-  std::pmr::vector<std::uint8_t> is_support;  ///< 1 for each point that belongs to the plane or lies below it
+  float sigma_m = 0;  ///< scatter of its points about the plane
+  /// 1 for each point that belongs to the plane, or to one of the levels, or lies below all of them.
+  std::pmr::vector<std::uint8_t> is_support;
+  /// Where things stand at several heights: all of them, the plane, too, the lowest first. Else empty.
+  std::pmr::vector<Level> levels;
+
+  [[nodiscard]] const Plane& lowest_plane() const { return levels.empty() ? plane : levels.front().plane; }
 };
 
 /// RANSAC over points and normals of a coarser copy of the cloud, then least squares. It comes before the

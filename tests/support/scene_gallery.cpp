@@ -93,6 +93,32 @@ AnalyticScene three_objects() {
                    standing_cylinder(0.13, 0.03, 0.027, 0.10)});
 }
 
+AnalyticScene block_on_table() {
+  std::vector<AnalyticSolid> solids{
+      standing_box(0.2, 0.05, {0.4, 0.26, 0.12}), standing_box(0.12, 0.04, {0.05, 0.12, 0.08}),
+      standing_cylinder(-0.12, -0.02, 0.03, 0.12), standing_box(-0.24, 0.03, {0.04, 0.10, 0.06})};
+  solids[1].T_scene_solid.translation().z() += 0.12;
+  AnalyticScene scene = on_table(std::move(solids));
+  scene.camera = {looking_at({0, -0.6, 0.7}, {0, 0, 0.05}), 400, 300, 400};
+  return scene;
+}
+
+AnalyticScene shelf() {
+  constexpr double kBoard = 0.32;
+  std::vector<AnalyticSolid> solids{
+      standing_box(0, 0, {0.7, 0.28, 0.018}),         standing_box(0, 0.19, {0.7, 0.1, 0.4}),
+      standing_box(-0.15, -0.02, {0.05, 0.10, 0.08}), standing_cylinder(0.15, -0.02, 0.03, 0.12),
+      standing_box(0.1, -0.04, {0.05, 0.10, 0.08}),   standing_cylinder(-0.12, -0.04, 0.03, 0.12)};
+  for (const std::size_t k : {0u, 2u, 3u}) solids[k].T_scene_solid.translation().z() += kBoard;
+  solids[0].T_scene_solid.translation().z() -= 0.018;
+  AnalyticScene scene = on_table(std::move(solids));
+  // The lower board ends where the upper one does.
+  scene.solids[0] = standing_box(0, 0, {0.7, 0.28, 0.018});
+  scene.solids[0].T_scene_solid.translation().z() -= 0.018;
+  scene.camera = {looking_at({0, -0.75, 0.75}, {0, 0, 0.2}), 400, 300, 400};
+  return scene;
+}
+
 AnalyticScene spread_objects() {
   std::vector<AnalyticSolid> objects;
   for (int i = 0; i < 9; ++i) {

@@ -37,6 +37,13 @@ namespace graspd {
 [[nodiscard]] AnalyticScene wall_of_boxes();
 /// Box, lying and standing cylinder well apart, turned.
 [[nodiscard]] AnalyticScene three_objects();
+/// A block of 400 mm x 260 mm x 120 mm on the right, with the box of 50 mm x 120 mm x 80 mm on it; left of it
+/// on the table a cylinder, 60 mm across, and a box of 40 mm x 100 mm x 60 mm. Camera 0.9 m away.
+[[nodiscard]] AnalyticScene block_on_table();
+/// Two boards of 700 mm x 280 mm, 320 mm apart, with a wall behind, and a box of 50 mm x 100 mm x 80 mm and a
+/// cylinder, 60 mm across, on each; the lower board is solid 0, the upper one 1, the wall 2. Camera 0.9 m
+/// away.
+[[nodiscard]] AnalyticScene shelf();
 /// Nine boxes and cylinders spread over the table; camera: VGA, 0.9 m away.
 [[nodiscard]] AnalyticScene spread_objects();
 

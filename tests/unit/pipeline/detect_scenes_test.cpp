@@ -186,6 +186,21 @@ TEST(DetectScenes, NothingOnAWallOfBoxes) {
   expect_nothing(detect(wall_of_boxes()));
 }
 
+TEST(DetectScenes, ThingsOnSeveralLevels) {
+  const Detected d = detect(block_on_table());
+  expect_all_sound(d);
+  EXPECT_EQ(d.num_on(1), 0) << "the block";
+  for (const int solid : {2, 3, 4}) EXPECT_GE(d.num_on(solid), 1) << solid;
+}
+
+TEST(DetectScenes, ThingsInAShelf) {
+  const Detected d = detect(shelf());
+  for (std::size_t i = 0; i < d.handles().size(); ++i)
+    expect_sound(d, d.handles()[i], d.truth[i], d.config.check.min_grip_depth_m);
+  EXPECT_EQ(d.num_on(1) + d.num_on(2), 0) << "the upper board and the wall";
+  for (const int solid : {3, 4, 5, 6}) EXPECT_GE(d.num_on(solid), 1) << solid;
+}
+
 TEST(DetectScenes, NothingOnAnEmptyTable) {
   expect_nothing(detect(on_table({})));
 }

@@ -112,9 +112,11 @@ TEST(PatchFit, FromTheSideALowThingOffersNoLessThanAnyOther) {
   const CheckScene scene(on_table({standing_box(0, 0, {0.05, 0.12, 0.014})}));
   const HandleCheckConfig config;
   const Eigen::Vector3f top(0, 0, 0.014f), level = Eigen::Vector3f::UnitY();
-  EXPECT_FLOAT_EQ(least_grip_depth(scene.view(), config, top, level), config.min_grip_depth_m);
-  EXPECT_NEAR(least_grip_depth(scene.view(), config, top, kDown), config.min_grip_share * 0.014f, 3e-4f);
-  EXPECT_FLOAT_EQ(least_grip_depth(scene.view(), config, {0, 0, 0.05f}, kDown), config.min_grip_depth_m);
+  EXPECT_FLOAT_EQ(least_grip_depth(scene.view().plane_under(0), config, top, level), config.min_grip_depth_m);
+  EXPECT_NEAR(least_grip_depth(scene.view().plane_under(0), config, top, kDown),
+              config.min_grip_share * 0.014f, 3e-4f);
+  EXPECT_FLOAT_EQ(least_grip_depth(scene.view().plane_under(0), config, {0, 0, 0.05f}, kDown),
+                  config.min_grip_depth_m);
 }
 
 TEST(PatchFit, FingersGoLessDeepWhereTheSupportIsNear) {

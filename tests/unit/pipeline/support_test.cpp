@@ -185,6 +185,81 @@ TEST(Support, TheTableBeforeALargerWallFartherAway) {
   expect_plane(find_support(cloud, {}), Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Zero());
 }
 
+TEST(Support, SeveralLevelsWithThingsOnThem) {
+  const VoxelSurfaces s = voxel_surfaces(render(block_on_table()));
+  const auto support = support_of(s);
+  ASSERT_TRUE(support);
+  ASSERT_EQ(support->levels.size(), 2u);
+  EXPECT_NEAR(support->levels[0].plane.height({0, 0, 0}), 0, 0.001f);
+  EXPECT_NEAR(support->levels[1].plane.height({0, 0, 0.12f}), 0, 0.001f);
+  EXPECT_TRUE(support->levels[1].is_solid);
+  EXPECT_EQ(&support->lowest_plane(), &support->levels[0].plane);
+  for (std::size_t i = 0; i < s.cloud.size(); ++i) {
+    const float z = s.cloud.z[i];
+    // Not the faces of the things at the height of the block's top, nor its own front below that.
+    if (s.solid[i] > 1 && std::abs(z - 0.12f) > 0.01f && z > 0.01f) {
+      EXPECT_EQ(support->is_support[i], 0) << s.cloud.point(i).transpose();
+    }
+    if (z < 0.001f || (s.solid[i] == 1 && z > 0.119f)) {
+      EXPECT_EQ(support->is_support[i], 1) << s.cloud.point(i).transpose();
+    }
+  }
+}
+
+TEST(Support, AWideThingWithNothingOnItIsNoLevelAndANarrowOneNeither) {
+  AnalyticScene bare = block_on_table();
+  bare.solids.erase(bare.solids.begin() + 2);
+  AnalyticScene narrow = block_on_table();
+  narrow.solids[1].half.y() = 0.08;
+  for (const AnalyticScene& scene : {bare, narrow, three_objects()}) {
+    const auto support = support_of(voxel_surfaces(render(scene)));
+    expect_plane(support, Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Zero());
+    EXPECT_TRUE(support->levels.empty());
+  }
+}
+
+TEST(Support, TheBoardsOfAShelf) {
+  for (const float sigma_m : {0.0f, 0.0015f}) {
+    RenderedScene rendered = render(shelf());
+    if (sigma_m > 0) rendered.cloud = with_range_noise(rendered.cloud, sigma_m, 1);
+    const auto support = support_of(voxel_surfaces(rendered));
+    ASSERT_TRUE(support);
+    EXPECT_GT(support->plane.normal.z(), 0.99f);
+    ASSERT_EQ(support->levels.size(), 2u);
+    EXPECT_NEAR(support->levels[0].plane.height({0, 0, 0}), 0, 0.002f);
+    EXPECT_NEAR(support->levels[1].plane.height({0, 0, 0.32f}), 0, 0.002f);
+    EXPECT_FALSE(support->levels[1].is_solid) << "things stand under it";
+  }
+}
+
+/// What a camera sees of a scene, in its optical frame.
+PointCloud optical_view(const AnalyticScene& scene) {
+  PointCloud cloud =
+      moved(finite_points(render(scene).cloud), scene.camera.T_scene_camera.inverse().cast<float>());
+  EXPECT_TRUE(cloud.viewpoint.isZero(1e-6f));
+  cloud.viewpoint.setZero();
+  return cloud;
+}
+
+TEST(Support, AnUprightCameraSeesAWallFaceDown) {
+  // From 14 degrees above more is seen of the wall than of what is level before it.
+  AnalyticScene scene = on_table({standing_box(0, 0.1, {2, 0.02, 1.2})});
+  scene.camera = {looking_at({0, -0.9, 0.35}, {0, 0, 0.12}), 320, 240, 400};
+  const auto support = find_support(optical_view(scene), {});
+  ASSERT_TRUE(support);
+  EXPECT_LT(support->plane.normal.y(), -0.8f) << "the table";
+}
+
+TEST(Support, ACameraOnItsHeadSeesATableFaceDown) {
+  AnalyticScene scene = three_objects();
+  scene.camera.T_scene_camera.rotate(Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitZ()));
+  const auto support = find_support(optical_view(scene), {});
+  ASSERT_TRUE(support);
+  EXPECT_GT(support->plane.normal.y(), 0.3f);
+  EXPECT_NEAR(support->plane.height(scene.camera.T_scene_camera.inverse().translation().cast<float>()), 0,
+              0.001f);
+}
+
 TEST(Support, WhatIsSeenThroughIsNone) {
   // The tops of blocks in rows, 6 cm wide and 4 cm apart, of which more is seen than of the table between
   // them.
