@@ -26,21 +26,22 @@ namespace {
 
 constexpr double kMillimetre_m = 0.001;
 
-SimulationConfig cluttered_tables() {
+SimulationConfig scenes_of(SceneKind kind) {
   SimulationConfig config;
-  config.scene.kind = scene_kind("medium").value();
+  config.scene.kind = kind;
   config.camera = scaled(config.camera, 320);
   config.elevation_rad = usual_elevation_deg(config.scene.kind) * std::numbers::pi / 180;
   config.new_scene_every = 1;
   return config;
 }
 
-/// Three frames, each as a depth image and as a cloud; names are longer than what fits into a string itself.
+/// Two tables and a shelf, each as a depth image and as a cloud; names are longer than what fits into a
+/// string itself.
 std::vector<std::pmr::vector<std::byte>> some_messages() {
   std::vector<std::pmr::vector<std::byte>> messages;
-  Simulation simulation(cluttered_tables());
-  for (std::int64_t k = 0; k < 3; ++k) {
-    const DepthFrame frame = simulation.frame(k);
+  std::int64_t k = 0;
+  for (const SceneKind kind : {SceneKind::kMedium, SceneKind::kMedium, SceneKind::kShelf}) {
+    const DepthFrame frame = Simulation(scenes_of(kind)).frame(k++);
     const FrameHeader header{k, k, "the_camera_over_the_table_optical_frame"};
     const Pinhole& p = frame.camera;
     const std::vector<std::uint16_t> units = depth_units(frame.depth_m, kMillimetre_m);
