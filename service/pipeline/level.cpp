@@ -87,7 +87,8 @@ void LevelExtent::measure_width() {
   std::pmr::vector<Eigen::Vector2f> places;
   for (std::size_t cell = 0; cell < distance_.size(); ++cell) {
     if (distance_[cell] == 0) continue;
-    places.emplace_back(static_cast<float>(cell % columns_), static_cast<float>(cell / columns_));
+    const std::size_t row = cell / columns_, column = cell % columns_;
+    places.emplace_back(static_cast<float>(column), static_cast<float>(row));
     sum += places.back();
   }
   const Eigen::Vector2f mean = sum / static_cast<float>(std::max<std::size_t>(1, places.size()));

@@ -26,6 +26,7 @@ class LevelSearch {
   }
 
   std::pmr::vector<Level> run();
+  [[nodiscard]] bool support_has_things() const { return has_things_on_it(level_at(0, points_at(0)), 0); }
 
  private:
   [[nodiscard]] std::pmr::vector<float> heights_with_many_points() const;
@@ -189,6 +190,11 @@ std::pmr::vector<Level> LevelSearch::run() {
 std::pmr::vector<Level> find_levels(CoarseSurface& coarse, const Plane& support, const PlaneLimits& limits,
                                     const SupportConfig& config) {
   return LevelSearch(coarse, support, limits, config).run();
+}
+
+bool has_things_on(CoarseSurface& coarse, const Plane& plane, const PlaneLimits& limits,
+                   const SupportConfig& config) {
+  return LevelSearch(coarse, plane, limits, config).support_has_things();
 }
 
 }  // namespace graspd

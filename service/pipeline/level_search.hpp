@@ -18,4 +18,8 @@ namespace graspd {
 [[nodiscard]] std::pmr::vector<Level> find_levels(CoarseSurface& coarse, const Plane& support,
                                                   const PlaneLimits& limits, const SupportConfig& config);
 
+/// Whether something rises from the plane where its points are.
+[[nodiscard]] bool has_things_on(CoarseSurface& coarse, const Plane& plane, const PlaneLimits& limits,
+                                 const SupportConfig& config);
+
 }  // namespace graspd

@@ -18,6 +18,7 @@
 namespace graspd {
 namespace {
 
+constexpr float kClearlyNoObject = 4;        // times the smallest area: larger than faces of objects are
 constexpr std::size_t kScatterSize = 10000;  // points that the scatter is measured on
 
 /// Of each point of a cloud.
@@ -269,7 +270,12 @@ std::optional<Support> find_support(const PointCloud& cloud, const SupportConfig
   float inliers = 0;
   const std::pmr::vector<Witness> asked = witnesses(coarse);
   for (int round = 0; round < 3; ++round) inliers = refine(coarse, asked, limits, support.plane);
-  if (inliers * config.leaf_size_m * config.leaf_size_m < config.min_area_m2) return std::nullopt;
+  const float area_m2 = inliers * config.leaf_size_m * config.leaf_size_m;
+  if (area_m2 < config.min_area_m2) return std::nullopt;
+  // Where the support was cut away, the largest face of an object must not take its place.
+  if (area_m2 < kClearlyNoObject * config.min_area_m2 &&
+      !has_things_on(coarse, support.plane, limits, config))
+    return std::nullopt;
   support.sigma_m = scatter(cloud, support.plane, config.thickness_m);
   support.levels = find_levels(coarse, support.plane, limits, config);
   settle_levels(coarse, limits, support);

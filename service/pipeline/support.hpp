@@ -30,7 +30,8 @@ struct SupportConfig {
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& v) {
     v("enabled", self.enabled, Range{}, "look for the plane that objects stand on");
-    v("min_area_m2", self.min_area_m2, Range{0.001, 100}, "smallest visible area of a support [m2]");
+    v("min_area_m2", self.min_area_m2, Range{0.001, 100},
+      "smallest visible area of a support with things on it; four times as much without [m2]");
     v("min_upper_area_m2", self.min_upper_area_m2, Range{0.001, 100},
       "a parallel plane above the largest one with this connected area is the support: a table over the "
       "floor [m2]");

@@ -93,8 +93,28 @@ TEST(Support, NoneWhereThePlaneIsTooSmall) {
   patch.viewpoint = {0, 0, 1};
   EXPECT_FALSE(find_support(patch, {}));
   SupportConfig smaller;
-  smaller.min_area_m2 = 0.005f;
+  smaller.min_area_m2 = 0.002f;
   EXPECT_TRUE(find_support(patch, smaller));
+}
+
+TEST(Support, AnObjectsFaceIsNoneWhereTheSupportWasCutAway) {
+  // Its top is 0.25 m x 0.2 m.
+  const AnalyticScene scene =
+      on_table({standing_box(0, 0, {0.25, 0.2, 0.1}), standing_box(0.2, 0, {0.04, 0.1, 0.05}),
+                standing_box(0.08, 0, {0.05, 0.05, 0.18})});
+  const auto without_table = [&](std::size_t num_boxes) {
+    AnalyticScene some = scene;
+    some.solids.resize(1 + num_boxes);
+    const RenderedScene rendered = render(some);
+    PointCloud cloud;
+    cloud.viewpoint = rendered.cloud.viewpoint;
+    for (std::size_t i = 0; i < rendered.cloud.size(); ++i)
+      if (rendered.solid_of_point[i] > 0) cloud.push_back(rendered.cloud.point(i));
+    return cloud;
+  };
+  EXPECT_FALSE(find_support(without_table(1), {}));
+  EXPECT_FALSE(find_support(without_table(2), {})) << "what stands beside it is not on it";
+  expect_plane(find_support(without_table(3), {}), Eigen::Vector3d::UnitZ(), {0, 0, 0.1});
 }
 
 TEST(Support, NoneWhenNotAskedFor) {
