@@ -39,7 +39,7 @@ class LevelExtent {
 
   Eigen::Vector3f u_, v_;
   float cell_m_;
-  Eigen::Vector2f low_;
+  Eigen::Vector2f low_ = Eigen::Vector2f::Zero();
   std::size_t columns_ = 0, rows_ = 0;
   std::pmr::vector<std::uint8_t> distance_;  // in cells, plus one; 0: farther than kMostCells
   float area_m2_ = 0, width_m_ = 0;

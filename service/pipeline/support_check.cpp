@@ -3,6 +3,8 @@
 #include "service/pipeline/support_check.hpp"
 
 #include <algorithm>
+#include <array>
+#include <span>
 
 namespace graspd {
 namespace {
@@ -36,19 +38,28 @@ bool is_above(const Plane& plane, const Hand& hand) {
   return true;
 }
 
-/// Along the fingers' edges and a few lines of the hand between them.
-bool is_blocked(const Level& level, const Hand& hand) {
-  const float half = hand.half_m, outside = half + hand.gripper.finger_width_m;
-  for (const float a : {-0.5f * hand.gripper.finger_thickness_m, 0.5f * hand.gripper.finger_thickness_m}) {
-    for (const float f : {-outside, -half, half, outside})
-      if (level.blocks(hand.at(a, f, hand.palm_top()), hand.at(a, f, hand.gripper.grasp_depth_m)))
-        return true;
-    for (const float share : {-1.0f, -0.5f, 0.0f, 0.5f, 1.0f}) {
-      const float f = share * hand.half();
-      if (level.blocks(hand.at(a, f, hand.farthest()), hand.at(a, f, hand.palm_top()))) return true;
-    }
+/// Along the edges of a box and a few lines of it between them, at these places along the closing axis.
+bool is_blocked(const Level& level, const Hand& hand, std::span<const float> places, float z0, float z1) {
+  const float half_e = 0.5f * hand.gripper.finger_thickness_m;
+  for (const float f : places) {
+    for (const float a : {-half_e, half_e})
+      if (level.blocks(hand.at(a, f, z0), hand.at(a, f, z1))) return true;
+    for (const float z : {z0, z1})
+      if (level.blocks(hand.at(-half_e, f, z), hand.at(half_e, f, z))) return true;
   }
+  for (const float a : {-half_e, half_e})
+    for (const float z : {z0, z1})
+      if (level.blocks(hand.at(a, places.front(), z), hand.at(a, places.back(), z))) return true;
   return false;
+}
+
+bool is_blocked(const Level& level, const Hand& hand) {
+  const float half = hand.half_m, outside = half + hand.gripper.finger_width_m, all = hand.half();
+  const float tip = hand.gripper.grasp_depth_m;
+  return is_blocked(level, hand, std::array{-outside, -half}, hand.palm_top(), tip) ||
+         is_blocked(level, hand, std::array{half, outside}, hand.palm_top(), tip) ||
+         is_blocked(level, hand, std::array{-all, -0.5f * all, 0.0f, 0.5f * all, all}, hand.farthest(),
+                    hand.palm_top());
 }
 
 }  // namespace
