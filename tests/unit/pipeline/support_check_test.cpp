@@ -50,7 +50,8 @@ TEST_F(SupportCheckTest, NoPartOfTheHandGoesThroughAnotherLevel) {
   EXPECT_TRUE(is_clear(0, {0, -0.3f, 0.25f}, kDown)) << "before the shelf";
   EXPECT_TRUE(is_clear(0, {0.6f, 0, 0.25f}, kDown)) << "beside it";
   EXPECT_TRUE(is_clear(0, {0, -0.05f, 0.25f}, kInward)) << "between the boards";
-  EXPECT_FALSE(is_clear(0, {0, -0.1f, 0.316f}, kInward)) << "an edge of the fingers reaches up into the board";
+  EXPECT_FALSE(is_clear(0, {0, -0.1f, 0.316f}, kInward))
+      << "an edge of the fingers reaches up into the board";
 }
 
 }  // namespace
