@@ -90,7 +90,7 @@ CLI::Option* add_simulate_options(CLI::App& app, SimulateOptions& o) {
       ->capture_default_str()
       ->group(group);
   app.add_option("--elevation", o.elevation_deg,
-                 "of the camera above the horizon [degrees] (default: 43, over a bin 63)")
+                 "of the camera above the horizon [degrees] (default: 43, over a bin 63, before a shelf 30)")
       ->check(CLI::Range(5.0, 90.0))
       ->needs(simulate)
       ->group(group);

@@ -55,13 +55,11 @@ void add_shelf(int num_objects, Scene& scene, Rng& rng) {
   for (const double side : {-1.0, 1.0})
     scene.solids.push_back(slab("side", kLabelBinWall, kWall, {side * (half.x() + t), 0, height / 2},
                                 {t, half.y(), height / 2}));
-  for (const double bottom : {0.0, room}) {
-    Ground board{half, Vector2d::Zero(), {}, {}};
-    board.origin.z() = bottom;
-    if (bottom < room) board.obstacles.push_back({Vector2d::Zero(), half, 0, 0, room - kThickness, room});
-    add_loose_objects(make_random_object, bottom > 0 ? num_objects / 2 : num_objects - num_objects / 2, scene,
-                      board, rng);
-  }
+  Ground lower{half, Vector2d::Zero(), {{Vector2d::Zero(), half, 0, 0, room - kThickness, room}}, {}};
+  Ground upper{half, Vector2d::Zero(), {}, {}};
+  upper.origin.z() = room;
+  add_loose_objects(make_random_object, num_objects - num_objects / 2, scene, lower, rng);
+  add_loose_objects(make_random_object, num_objects / 2, scene, upper, rng);
 }
 
 }  // namespace graspd

@@ -12,7 +12,7 @@ namespace graspd {
 [[nodiscard]] Solid slab(const char* kind, std::uint32_t label, std::uint32_t rgb,
                          const Eigen::Vector3d& center, const Eigen::Vector3d& half);
 
-/// Nothing leans, and nothing lies on something else.
+/// Apart, touching or on top of one another; nothing leans.
 void add_loose_objects(ObjectMaker make, int num_objects, Scene& scene, Ground& ground, Rng& rng);
 
 /// A block on the ground, 5 to 25 cm high and too wide to be held, and everyday objects on both.

@@ -80,7 +80,7 @@ void add_options(CLI::App& app, Options& o) {
       ->check(CLI::Range(0.3, 3.0))
       ->capture_default_str();
   app.add_option("--elevation", o.elevation_deg,
-                 "of the camera above the horizon [degrees] (default: 43, over a bin 63)")
+                 "of the camera above the horizon [degrees] (default: 43, over a bin 63, before a shelf 30)")
       ->check(CLI::Range(5.0, 90.0));
   app.add_option("--azimuth", o.azimuth_deg, "of the camera around the scene [degrees]")
       ->capture_default_str();

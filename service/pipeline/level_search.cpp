@@ -21,9 +21,11 @@ class LevelSearch {
  public:
   LevelSearch(CoarseSurface& coarse, const Plane& support, const PlaneLimits& limits,
               const SupportConfig& config)
-      : coarse_(coarse), support_(support), limits_(limits), config_(config), heights_(coarse.size()) {
-    for (std::size_t i = 0; i < heights_.size(); ++i) heights_[i] = support.height(coarse.cloud().point(i));
-  }
+      : coarse_(coarse),
+        support_(support),
+        limits_(limits),
+        config_(config),
+        heights_(heights_above(support, coarse.cloud())) {}
 
   std::pmr::vector<Level> run();
   [[nodiscard]] bool support_has_things() const { return has_things_on_it(level_at(0, points_at(0)), 0); }

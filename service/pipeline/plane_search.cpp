@@ -221,6 +221,16 @@ std::optional<Scored> best_of(const Hypotheses& all, const Sample& sample, const
 
 }  // namespace
 
+RawVector<float> heights_above(const Plane& plane, const PointCloud& cloud) {
+  const float nx = plane.normal.x(), ny = plane.normal.y(), nz = plane.normal.z(), offset = plane.offset_m;
+  const float *x = cloud.x.data(), *y = cloud.y.data(), *z = cloud.z.data();
+  RawVector<float> heights(cloud.size());
+  float* height = heights.data();
+  // Summed as Plane::height() does it.
+  for (std::size_t i = 0; i < heights.size(); ++i) height[i] = nx * x[i] + (ny * y[i] + nz * z[i]) + offset;
+  return heights;
+}
+
 std::optional<Plane> find_plane(CoarseSurface& coarse, int num_hypotheses, const PlaneLimits& limits,
                                 const Eigen::Vector3f& viewpoint) {
   constexpr float kFacesDown = 0.15f, kEnough = 0.4f;

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "service/pipeline/coarse_surface.hpp"
+#include "service/pipeline/raw_vector.hpp"
 #include "service/pipeline/support.hpp"
 
 namespace graspd {
@@ -24,6 +25,9 @@ struct PlaneLimits {
   const float d = std::max(kFar, distance_m);
   return 1 / (d * d);
 }
+
+/// Of each point above the plane [m], to the bit as Plane::height() has it.
+[[nodiscard]] RawVector<float> heights_above(const Plane& plane, const PointCloud& cloud);
 
 /// Of so many hypotheses the one with the most points on it less those seen through it: behind it, on lines
 /// of sight that pass it where its own points are. A support hides what is behind it; beyond its border the

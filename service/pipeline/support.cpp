@@ -21,17 +21,6 @@ namespace {
 constexpr float kClearlyNoObject = 4;        // times the smallest area: larger than faces of objects are
 constexpr std::size_t kScatterSize = 10000;  // points that the scatter is measured on
 
-/// Of each point of a cloud.
-RawVector<float> heights_above(const Plane& plane, const PointCloud& cloud) {
-  const float nx = plane.normal.x(), ny = plane.normal.y(), nz = plane.normal.z(), offset = plane.offset_m;
-  const float *x = cloud.x.data(), *y = cloud.y.data(), *z = cloud.z.data();
-  RawVector<float> heights(cloud.size());
-  float* height = heights.data();
-  // Summed as Plane::height() does it.
-  for (std::size_t i = 0; i < heights.size(); ++i) height[i] = nx * x[i] + (ny * y[i] + nz * z[i]) + offset;
-  return heights;
-}
-
 std::pmr::vector<std::uint8_t> points_above(const RawVector<float>& heights, float lowest_m) {
   std::pmr::vector<std::uint8_t> is_above(heights.size());
   for (std::size_t i = 0; i < heights.size(); ++i) is_above[i] = heights[i] > lowest_m ? 1 : 0;
@@ -225,8 +214,8 @@ std::pmr::vector<std::uint8_t> points_of(const Support& support, const PointClou
 
 /// Least squares for those besides the support.
 void settle_levels(const CoarseSurface& coarse, const PlaneLimits& limits, Support& support) {
-  const std::pmr::vector<Witness> asked =
-      support.levels.empty() ? std::pmr::vector<Witness>{} : witnesses(coarse);
+  if (support.levels.empty()) return;
+  const std::pmr::vector<Witness> asked = witnesses(coarse);
   for (Level& level : support.levels) {
     if (level.plane.offset_m == support.plane.offset_m) continue;
     for (int round = 0; round < 2; ++round) refine(coarse, asked, limits, level.plane);

@@ -93,6 +93,10 @@ TEST(Support, NoneWhereThePlaneIsTooSmall) {
   patch.viewpoint = {0, 0, 1};
   EXPECT_FALSE(find_support(patch, {}));
   SupportConfig smaller;
+  smaller.min_area_m2 = 0.005f;
+  EXPECT_FALSE(find_support(patch, smaller)) << "less than four times as much, and nothing on it";
+  const PointCloud thing = box_shell({0.02f, 0.02f, 0.005f}, {0.08f, 0.08f, 0.07f}, 0.003f);
+  EXPECT_TRUE(find_support(joined(patch, thing), smaller));
   smaller.min_area_m2 = 0.002f;
   EXPECT_TRUE(find_support(patch, smaller));
 }
